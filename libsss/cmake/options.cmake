@@ -1,0 +1,23 @@
+# sss_options: the only place for compiler flags. Every target of ours links it privately.
+add_library(sss_options INTERFACE)
+target_compile_options(sss_options INTERFACE
+  -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Wold-style-cast -Wcast-align
+  -Woverloaded-virtual -Wnull-dereference -Werror
+  # sqrt inlines to one instruction; values are the same.
+  -fno-math-errno)
+# SSS_ASSERT is on in every build but Release.
+target_compile_definitions(sss_options INTERFACE $<$<NOT:$<CONFIG:Release>>:SSS_ASSERTIONS=1>)
+
+if(SSS_SANITIZE)
+  target_compile_options(sss_options INTERFACE
+    -fsanitize=${SSS_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all
+    # The sanitizers' own instrumentation confuses these two warnings in GCC 12.
+    -Wno-null-dereference -Wno-maybe-uninitialized)
+  target_link_options(sss_options INTERFACE -fsanitize=${SSS_SANITIZE})
+  target_compile_definitions(sss_options INTERFACE SSS_SANITIZED=1)
+endif()
+
+find_program(SSS_CCACHE ccache)
+if(SSS_CCACHE)
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${SSS_CCACHE})
+endif()

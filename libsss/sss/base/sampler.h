@@ -1,0 +1,27 @@
+#pragma once
+#include "sss/base/rng.h"
+#include "sss/base/vec.h"
+
+#include <cstdint>
+
+namespace sss {
+
+/// Low-discrepancy numbers for one sample of one pixel (or surface point): Owen-scrambled, shuffled
+/// (0,2)-sequences, padded pair by pair [Burley 2020, "Practical Hash-based Owen Scrambling"].
+/// The first 2^k samples of every pair are stratified; pairs are independent of each other.
+/// Numbers are in [0, 1). Deterministic in (seed, index), a few nanoseconds each.
+class Sampler {
+public:
+    /// `seed` names the pixel or point, `index` its sample.
+    Sampler(std::uint64_t seed, std::uint32_t index) : seed_(seed), index_(index) {}
+    float next1D();
+    Vec2 next2D();
+    std::uint32_t index() const { return index_; }
+
+private:
+    std::uint64_t seed_;
+    std::uint32_t index_;
+    std::uint32_t dimension_ = 0;
+};
+
+}  // namespace sss

@@ -1,0 +1,41 @@
+#pragma once
+#include "sss/base/bounds.h"
+#include "sss/base/vec.h"
+
+#include <memory>
+
+namespace sss {
+
+/// A way from a point to a light.
+struct LightSample {
+    Vec3 direction{};          ///< unit, from the point towards the light
+    float distance = 0;        ///< mm to the light; infinity for directional and environment
+    Rgb radiance{0.0f};        ///< unoccluded radiance arriving; for delta lights see pdf
+    /// Probability density in solid angle (sr^-1) at the point. For a delta light it is 1 and
+    /// `radiance` holds the irradiance on a facing surface. 0 = no light from here.
+    float pdf = 0;
+};
+
+/// A light that can be sampled from any point. Immutable and thread-safe. Lengths are mm in the
+/// scene's space; radiance W m^-2 sr^-1.
+class Light {
+public:
+    virtual ~Light() = default;
+    virtual LightSample sample(const Vec3& from, const Vec2& u) const = 0;
+    /// A delta light cannot be hit by a ray: no multiple importance sampling.
+    virtual bool isDelta() const { return false; }
+    /// Radiance that leaves the light's surface, or arrives from infinity, along a ray from `from`
+    /// in `direction`, and with it the pdf (sr^-1) with which sample() makes that direction. The
+    /// caller knows that nothing is in between. Zero where the ray misses the light.
+    /// For analytic shapes `distance` receives where the ray meets it (infinity for environments).
+    struct Seen {
+        Rgb radiance{0.0f};
+        float pdf = 0;
+        float distance = 0;
+    };
+    virtual Seen seen(const Vec3& from, const Vec3& direction) const = 0;
+    /// Flux that can reach a sphere around `target`, in relative terms: what a light is picked by.
+    virtual float importance(const Bounds& target) const = 0;
+};
+
+}  // namespace sss

@@ -1,0 +1,49 @@
+#include "sss/base/sampler.h"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+namespace sss {
+namespace {
+
+TEST(Sampler, EveryPairIsStratifiedInAllElementaryIntervals) {
+    // The first 2^4 samples of a (0,2)-sequence hit each of the 16 cells of every 2^a x 2^b grid.
+    for (std::uint64_t seed : {1u, 77u, 12345u}) {
+        for (int a = 0; a <= 4; ++a) {
+            const int nx = 1 << a, ny = 16 / nx;
+            std::vector<int> cells(16, 0);
+            for (std::uint32_t i = 0; i < 16; ++i) {
+                Sampler sampler(seed, i);
+                sampler.next2D();
+                sampler.next1D();
+                const Vec2 u = sampler.next2D();
+                const int x = static_cast<int>(u.x * static_cast<float>(nx));
+                const int y = static_cast<int>(u.y * static_cast<float>(ny));
+                ++cells[static_cast<std::size_t>(y * nx + x)];
+            }
+            for (int count : cells) EXPECT_EQ(count, 1);
+        }
+    }
+}
+
+TEST(Sampler, OneDimensionIsStratified) {
+    std::vector<int> cells(64, 0);
+    for (std::uint32_t i = 0; i < 64; ++i)
+        ++cells[static_cast<std::size_t>(Sampler(9, i).next1D() * 64.0f)];
+    for (int count : cells) EXPECT_EQ(count, 1);
+}
+
+TEST(Sampler, PairsAreUncorrelated) {
+    double sum = 0;
+    const int n = 4096;
+    for (std::uint32_t i = 0; i < n; ++i) {
+        Sampler sampler(3, i);
+        const Vec2 a = sampler.next2D(), b = sampler.next2D();
+        sum += (a.x - 0.5) * (b.x - 0.5) + (a.y - 0.5) * (b.y - 0.5);
+    }
+    EXPECT_NEAR(sum / n, 0.0, 4.0 * std::sqrt(2.0) / 12.0 / std::sqrt(n));
+}
+
+}  // namespace
+}  // namespace sss
