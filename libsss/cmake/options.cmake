@@ -2,7 +2,7 @@
 add_library(sss_options INTERFACE)
 target_compile_options(sss_options INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Wold-style-cast -Wcast-align
-  -Woverloaded-virtual -Wnull-dereference -Werror
+  -Woverloaded-virtual -Werror
   # sqrt inlines to one instruction; values are the same.
   -fno-math-errno)
 # SSS_ASSERT is on in every build but Release.
@@ -11,8 +11,8 @@ target_compile_definitions(sss_options INTERFACE $<$<NOT:$<CONFIG:Release>>:SSS_
 if(SSS_SANITIZE)
   target_compile_options(sss_options INTERFACE
     -fsanitize=${SSS_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all
-    # The sanitizers' own instrumentation confuses these two warnings in GCC 12.
-    -Wno-null-dereference -Wno-maybe-uninitialized)
+    # The sanitizers' own instrumentation confuses this warning in GCC 12.
+    -Wno-maybe-uninitialized)
   target_link_options(sss_options INTERFACE -fsanitize=${SSS_SANITIZE})
   target_compile_definitions(sss_options INTERFACE SSS_SANITIZED=1)
 endif()

@@ -4,6 +4,7 @@
 
 #define GLM_FORCE_XYZW_ONLY
 #include <glm/glm.hpp>
+#include <glm/gtc/matrix_transform.hpp>
 
 #include <cmath>
 #include <cstdint>

@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <cstddef>
 #include <map>
 #include <string>
@@ -7,7 +8,9 @@
 
 namespace sss {
 
-/// A group of channels of one picture: "R,G,B,A" without a name (beauty), or "diffusion" with R,G,B.
+/// A group of channels of one picture: "R,G,B,A" without a name (beauty), or "diffusion" with
+/// R,G,B. A layer whose only channel bears the layer's own name ("Z" with Z) is a bare channel in
+/// the file.
 struct ImageLayer {
     std::string name;                   ///< empty for the beauty layer
     std::vector<std::string> channels;  ///< e.g. {"R","G","B"}, {"X","Y","Z"}, {"Z"}
@@ -15,7 +18,9 @@ struct ImageLayer {
     bool fullPrecision = false;         ///< float in the file whatever the writer's default
 };
 
-using MetadataValue = std::variant<std::string, double, int>;
+/// Sixteen numbers are a 4 x 4 matrix in OpenEXR's order, rows of a matrix that acts on row
+/// vectors: the same memory as GLM's columns of a matrix that acts on column vectors.
+using MetadataValue = std::variant<std::string, double, int, std::array<double, 16>>;
 
 /// A scene-linear picture with named layers of one size.
 struct LayeredImage {

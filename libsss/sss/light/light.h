@@ -2,15 +2,16 @@
 #include "sss/base/bounds.h"
 #include "sss/base/vec.h"
 
+#include <limits>
 #include <memory>
 
 namespace sss {
 
 /// A way from a point to a light.
 struct LightSample {
-    Vec3 direction{};          ///< unit, from the point towards the light
-    float distance = 0;        ///< mm to the light; infinity for directional and environment
-    Rgb radiance{0.0f};        ///< unoccluded radiance arriving; for delta lights see pdf
+    Vec3 direction{};    ///< unit, from the point towards the light
+    float distance = 0;  ///< mm to the light; infinity for directional and environment
+    Rgb radiance{0.0f};  ///< unoccluded radiance arriving; for delta lights see pdf
     /// Probability density in solid angle (sr^-1) at the point. For a delta light it is 1 and
     /// `radiance` holds the irradiance on a facing surface. 0 = no light from here.
     float pdf = 0;
@@ -24,9 +25,15 @@ public:
     virtual LightSample sample(const Vec3& from, const Vec2& u) const = 0;
     /// A delta light cannot be hit by a ray: no multiple importance sampling.
     virtual bool isDelta() const { return false; }
+    /// Whether its light comes from infinitely far: what a ray that leaves the scene may see.
+    virtual bool isInfinite() const { return false; }
+    /// Whether directions chosen for how the receiver scatters find it better than sample() does, as
+    /// for light that comes evenly from everywhere; LightPicker then never picks it.
+    virtual bool bestFoundByScattering() const { return false; }
     /// Radiance that leaves the light's surface, or arrives from infinity, along a ray from `from`
     /// in `direction`, and with it the pdf (sr^-1) with which sample() makes that direction. The
-    /// caller knows that nothing is in between. Zero where the ray misses the light.
+    /// caller knows that nothing is in between. Zero where the ray misses the light; always zero
+    /// for delta lights, and for mesh emitters, which are hit as geometry (see MeshLight).
     /// For analytic shapes `distance` receives where the ray meets it (infinity for environments).
     struct Seen {
         Rgb radiance{0.0f};
@@ -35,6 +42,7 @@ public:
     };
     virtual Seen seen(const Vec3& from, const Vec3& direction) const = 0;
     /// Flux that can reach a sphere around `target`, in relative terms: what a light is picked by.
+    /// An estimate of the irradiance on a facing surface within, W m^-2, mean over the channels.
     virtual float importance(const Bounds& target) const = 0;
 };
 

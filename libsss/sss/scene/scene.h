@@ -1,5 +1,6 @@
 #pragma once
 #include "sss/base/vec.h"
+#include "sss/image/filter.h"
 #include "sss/medium/medium.h"
 #include "sss/medium/profile.h"
 
@@ -19,30 +20,28 @@ struct CameraSettings {
     DVec3 position{0, 0, 100};
     DVec3 lookAt{0, 0, 0};
     DVec3 up{0, 1, 0};
-    double fovDegrees = 40;            ///< vertical, in (0, 180)
-    double apertureRadiusMm = 0;       ///< 0 = pinhole
-    double focusDistanceMm = 0;        ///< 0 = distance to lookAt
+    double fovDegrees = 40;       ///< vertical, in (0, 180)
+    double apertureRadiusMm = 0;  ///< 0 = pinhole
+    double focusDistanceMm = 0;   ///< 0 = distance to lookAt
 };
-
-enum class FilterKind { Box, Tent, Gaussian, BlackmanHarris };
 
 struct FilmSettings {
     int width = 512, height = 512;
-    int samples = 64;                  ///< per pixel
+    int samples = 64;  ///< per pixel
     FilterKind filter = FilterKind::BlackmanHarris;
-    double filterRadiusPixels = 0;     ///< 0 = the filter's own default (box 0.5)
-    std::vector<std::string> layers;   ///< beside beauty: diffusion single surface albedo N Z
-    double exposureStops = 0;          ///< of the PNG only
-    bool halfPrecision = true;         ///< colour layers of the EXR
+    double filterRadiusPixels = 0;    ///< 0 = the filter's own default (box 0.5)
+    std::vector<std::string> layers;  ///< beside beauty: diffusion single surface albedo N Z
+    double exposureStops = 0;         ///< of the PNG only
+    bool halfPrecision = true;        ///< colour layers of the EXR
 };
 
 /// Multiple-scattering medium behind a dielectric boundary.
 struct TranslucentMaterial {
     Medium medium;
-    std::string mediumName;            ///< measured name, or empty
+    std::string mediumName;  ///< measured name, or empty
     std::string profile = "dipole";
     ProfileOptions profileOptions;
-    double roughness = 0;              ///< of the boundary; GGX alpha = roughness^2; 0 = smooth
+    double roughness = 0;  ///< of the boundary; GGX alpha = roughness^2; 0 = smooth
     bool surfaceReflection = true;
     bool singleScattering = true;
     bool multipleScattering = true;
@@ -54,10 +53,10 @@ struct LambertianMaterial {
 struct MetalMaterial {
     Rgb eta{0.2f, 0.92f, 1.1f};
     Rgb k{3.9f, 2.45f, 2.14f};
-    double roughness = 0.2;            ///< GGX alpha = roughness^2
+    double roughness = 0.2;  ///< GGX alpha = roughness^2
 };
 struct EmitterMaterial {
-    Rgb radiance{1.0f};                ///< W m^-2 sr^-1
+    Rgb radiance{1.0f};  ///< W m^-2 sr^-1
     bool twoSided = false;
 };
 using Material =
@@ -68,21 +67,21 @@ struct NamedMaterial {
 };
 
 struct MeshFileShape {
-    std::filesystem::path path;        ///< absolute, or relative to the scene file (resolved)
+    std::filesystem::path path;  ///< absolute, or relative to the scene file (resolved)
 };
 struct SphereShape {
     double radiusMm = 1;
 };
-struct RectangleShape {                ///< in x and y, facing +z, centred
+struct RectangleShape {  ///< in x and y, facing +z, centred
     double widthMm = 1, heightMm = 1;
 };
-struct DiskShape {                     ///< in x and y, facing +z, centred
+struct DiskShape {  ///< in x and y, facing +z, centred
     double radiusMm = 1;
 };
-struct BoxShape {                      ///< centred
+struct BoxShape {  ///< centred
     DVec3 sizeMm{1};
 };
-struct CylinderShape {                 ///< along y, centred, capped
+struct CylinderShape {  ///< along y, centred, capped
     double radiusMm = 1, heightMm = 1;
 };
 using Shape =
@@ -107,33 +106,33 @@ struct ObjectSettings {
     std::string name;
     Shape shape;
     std::vector<TransformStep> transform;
-    int material = 0;                  ///< index into Scene::materials
-    std::string group;                 ///< objects of one group are one body; empty = own body
+    int material = 0;   ///< index into Scene::materials
+    std::string group;  ///< objects of one group are one body; empty = own body
     NormalsMode normals = NormalsMode::Auto;
-    int line = 0, column = 0;          ///< where the object stands in the scene file
+    int line = 0, column = 0;  ///< where the object stands in the scene file
 };
 
 struct PointLight {
     DVec3 position{0};
-    Rgb intensity{1.0f};               ///< W sr^-1
+    Rgb intensity{1.0f};  ///< W sr^-1
 };
 struct SpotLight {
     DVec3 position{0};
     DVec3 lookAt{0};
-    Rgb intensity{1.0f};               ///< W sr^-1 on the axis
-    double coneDegrees = 30;           ///< half angle where the light ends
-    double penumbraDegrees = 5;        ///< width of the soft edge inside the cone
+    Rgb intensity{1.0f};         ///< W sr^-1 on the axis
+    double coneDegrees = 30;     ///< half angle where the light ends
+    double penumbraDegrees = 5;  ///< width of the soft edge inside the cone
 };
 struct DirectionalLight {
-    DVec3 direction{0, -1, 0};         ///< the way the light travels
-    Rgb irradiance{1.0f};              ///< W m^-2 on a facing surface
+    DVec3 direction{0, -1, 0};  ///< the way the light travels
+    Rgb irradiance{1.0f};       ///< W m^-2 on a facing surface
 };
 struct RectangleLight {
     DVec3 centre{0};
-    DVec3 lookAt{0};                   ///< it faces this point
+    DVec3 lookAt{0};  ///< it faces this point
     DVec3 up{0, 1, 0};
     double widthMm = 1, heightMm = 1;
-    Rgb radiance{1.0f};                ///< W m^-2 sr^-1
+    Rgb radiance{1.0f};  ///< W m^-2 sr^-1
     bool twoSided = false;
 };
 struct SphereLight {
@@ -142,24 +141,24 @@ struct SphereLight {
     Rgb radiance{1.0f};
 };
 struct EnvironmentLight {
-    Rgb radiance{1.0f};                ///< scales the map if there is one
-    std::filesystem::path map;         ///< lat-long EXR; empty = constant
-    double rotationDegrees = 0;        ///< about +y
+    Rgb radiance{1.0f};          ///< scales the map if there is one
+    std::filesystem::path map;   ///< lat-long EXR; empty = constant
+    double rotationDegrees = 0;  ///< about +y
 };
 using LightSettings = std::variant<PointLight, SpotLight, DirectionalLight, RectangleLight,
                                    SphereLight, EnvironmentLight>;
 
 struct QualitySettings {
-    double tolerance = 0.01;           ///< relative error asked of diffusion, (0, 0.5]
-    double spacingMm = 0;              ///< 0 = from tolerance and mean free path
-    int irradianceSamples = 0;         ///< per point and light; 0 = from tolerance
-    int bounces = 4;                   ///< indirect bounces between objects; 0 = direct light only
+    double tolerance = 0.01;    ///< relative error asked of diffusion, (0, 0.5]
+    double spacingMm = 0;       ///< 0 = from tolerance and mean free path
+    int irradianceSamples = 0;  ///< per point and light; 0 = from tolerance
+    int bounces = 4;            ///< indirect bounces between objects; 0 = direct light only
     std::uint64_t seed = 0;
 };
 
 struct Scene {
     std::filesystem::path file;
-    double metersPerUnit = 0.001;      ///< what the file said; everything here is already mm
+    double metersPerUnit = 0.001;  ///< what the file said; everything here is already mm
     CameraSettings camera;
     FilmSettings film;
     QualitySettings quality;

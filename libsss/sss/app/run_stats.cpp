@@ -1,0 +1,115 @@
+#include "sss/app/run_stats.h"
+
+#include "sss/base/atomic_file.h"
+
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <ctime>
+
+namespace sss {
+namespace {
+
+double processCpuSeconds() {
+    timespec time{};
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
+    return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
+double secondsSince(std::chrono::steady_clock::time_point began) {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+}
+
+// Few names, and their order is the order of the report: a vector searched from its front.
+template <typename Item>
+Item& named(std::vector<Item>& items, std::string_view name) {
+    const auto found = std::find_if(items.begin(), items.end(),
+                                    [&](const Item& item) { return item.name == name; });
+    if (found != items.end()) return *found;
+    items.push_back({});
+    items.back().name = name;
+    return items.back();
+}
+
+template <typename Item>
+Item valueOf(const std::vector<Item>& items, std::string_view name) {
+    const auto found = std::find_if(items.begin(), items.end(),
+                                    [&](const Item& item) { return item.name == name; });
+    return found == items.end() ? Item{} : *found;
+}
+
+}  // namespace
+
+RunStats::Timer::Timer(RunStats& stats, std::string phase)
+    : stats_(stats),
+      phase_(std::move(phase)),
+      wallBegan_(std::chrono::steady_clock::now()),
+      cpuBegan_(processCpuSeconds()) {}
+
+RunStats::Timer::~Timer() {
+    stats_.addSeconds(phase_, secondsSince(wallBegan_), processCpuSeconds() - cpuBegan_);
+}
+
+RunStats::RunStats(std::string program)
+    : program_(std::move(program)), began_(std::chrono::steady_clock::now()) {}
+
+void RunStats::count(std::string_view name, std::uint64_t amount) {
+    const std::lock_guard lock(mutex_);
+    named(counters_, name).amount += amount;
+}
+
+void RunStats::value(std::string_view name, JsonValue value) {
+    const std::lock_guard lock(mutex_);
+    values_.set(std::string(name), std::move(value));
+}
+
+void RunStats::addSeconds(const std::string& phase, double wall, double cpu) {
+    const std::lock_guard lock(mutex_);
+    Phase& entry = named(phases_, phase);
+    entry.wallSeconds += wall;
+    entry.cpuSeconds += cpu;
+}
+
+double RunStats::wallSeconds(std::string_view phase) const {
+    const std::lock_guard lock(mutex_);
+    return valueOf(phases_, phase).wallSeconds;
+}
+
+std::uint64_t RunStats::counter(std::string_view name) const {
+    const std::lock_guard lock(mutex_);
+    return valueOf(counters_, name).amount;
+}
+
+JsonValue RunStats::toJson() const {
+    const std::lock_guard lock(mutex_);
+    JsonValue wall = JsonValue::object(), cpu = JsonValue::object(), counts = JsonValue::object();
+    for (const Phase& phase : phases_) {
+        wall.set(phase.name, phase.wallSeconds);
+        cpu.set(phase.name, phase.cpuSeconds);
+    }
+    wall.set("total", secondsSince(began_));
+    cpu.set("total", processCpuSeconds());
+    for (const Counter& counter : counters_) counts.set(counter.name, counter.amount);
+    JsonValue all = JsonValue::object();
+    all.set("program", program_)
+        .set("seconds", std::move(wall))
+        .set("cpuSeconds", std::move(cpu))
+        .set("counts", std::move(counts))
+        .set("values", values_)
+        .set("peakMemoryBytes", peakMemoryBytes());
+    return all;
+}
+
+void RunStats::writeStats(const std::filesystem::path& path) const {
+    AtomicFile file(path);
+    file.append(dump(toJson()) + "\n");
+    file.commit();
+}
+
+std::uint64_t peakMemoryBytes() {
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;  // ru_maxrss is in KiB on Linux
+}
+
+}  // namespace sss

@@ -1,0 +1,78 @@
+#pragma once
+#include "sss/base/json.h"
+
+#include <chrono>
+#include <cstdint>
+#include <filesystem>
+#include <mutex>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace sss {
+
+/// What a run cost and made, for --stats: seconds a phase, counts, values, peak memory. Every call
+/// may come from any thread.
+class RunStats {
+public:
+    /// Adds the time until it is destroyed to its phase.
+    class Timer {
+    public:
+        ~Timer();
+        Timer(const Timer&) = delete;
+        Timer& operator=(const Timer&) = delete;
+
+    private:
+        friend class RunStats;
+        Timer(RunStats& stats, std::string phase);
+        RunStats& stats_;
+        std::string phase_;
+        std::chrono::steady_clock::time_point wallBegan_;
+        double cpuBegan_;
+    };
+
+    /// The clock of "total" starts here.
+    explicit RunStats(std::string program);
+
+    /// Times a phase, by the wall and by the CPU seconds of all threads of the process:
+    /// `const auto timer = stats.seconds("points");`. A phase met again adds up.
+    [[nodiscard]] Timer seconds(std::string phase) { return Timer(*this, std::move(phase)); }
+    /// Adds to a counter (points, nodes, rays); counters never touched are not written.
+    void count(std::string_view name, std::uint64_t amount);
+    /// Sets a value: a number, text, or an array or object of them.
+    void value(std::string_view name, JsonValue value);
+
+    double wallSeconds(std::string_view phase) const;
+    std::uint64_t counter(std::string_view name) const;
+
+    /// {"program", "seconds": {phase..., "total"}, "cpuSeconds": {phase..., "total"},
+    ///  "counts": {...}, "values": {...}, "peakMemoryBytes"}; phases, counts and values in the
+    ///  order
+    /// they first came.
+    JsonValue toJson() const;
+    /// toJson() as a file. Throws Error{Io}.
+    void writeStats(const std::filesystem::path& path) const;
+
+private:
+    struct Phase {
+        std::string name;
+        double wallSeconds = 0, cpuSeconds = 0;
+    };
+    struct Counter {
+        std::string name;
+        std::uint64_t amount = 0;
+    };
+    void addSeconds(const std::string& phase, double wall, double cpu);
+
+    std::string program_;
+    std::chrono::steady_clock::time_point began_;
+    std::vector<Phase> phases_;
+    std::vector<Counter> counters_;
+    JsonValue values_ = JsonValue::object();
+    mutable std::mutex mutex_;
+};
+
+/// The most memory this process has had resident so far, in bytes.
+std::uint64_t peakMemoryBytes();
+
+}  // namespace sss

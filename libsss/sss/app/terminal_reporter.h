@@ -1,0 +1,56 @@
+#pragma once
+#include "sss/base/reporter.h"
+
+#include <chrono>
+#include <cstddef>
+#include <cstdio>
+#include <functional>
+#include <mutex>
+#include <optional>
+#include <string>
+
+namespace sss {
+
+struct TerminalOptions {
+    bool quiet = false;  ///< only warnings
+    std::FILE* stream = stderr;
+    std::optional<bool> isTerminal;          ///< default: what `stream` is
+    std::function<double()> elapsedSeconds;  ///< default: since construction; for tests
+};
+
+/// The log of both programs: one line an event. On a terminal progress is a bar with the time left
+/// that redraws itself; elsewhere it is a PROGRESS line at most every 2 s, for phases over 1 s
+/// only.
+class TerminalReporter final : public Reporter {
+public:
+    explicit TerminalReporter(TerminalOptions options = {});
+    ~TerminalReporter() override;
+    TerminalReporter(const TerminalReporter&) = delete;
+    TerminalReporter& operator=(const TerminalReporter&) = delete;
+
+    void info(std::string_view module, std::string_view sentence) override;
+    void warn(std::string_view module, std::string_view sentence) override;
+    void progress(std::string_view phase, double fraction, double secondsLeft, bool done) override;
+
+    std::size_t warningCount() const;
+    /// For --strict, once the work is done: throws Error{Strict} if there was any warning.
+    void requireNoWarnings() const;
+
+private:
+    void printLine(std::string_view level, std::string_view module, std::string_view sentence);
+    void eraseBar();
+    void drawBar(std::string_view phase, double fraction, double secondsLeft);
+
+    TerminalOptions options_;
+    bool isTerminal_ = false, isBarDrawn_ = false;
+    std::string phase_;  ///< that the next two speak of
+    double phaseBegan_ = 0, lastPrinted_ = 0;
+    bool isPhasePrinted_ = false;
+    std::size_t warnings_ = 0;
+    mutable std::mutex mutex_;
+};
+
+/// "17 s left", "3 min left", "2.1 h left"; "" if `seconds` is negative.
+std::string timeLeftText(double seconds);
+
+}  // namespace sss

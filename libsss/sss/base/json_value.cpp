@@ -1,0 +1,50 @@
+#include "sss/base/json.h"
+
+namespace sss {
+
+JsonValue JsonValue::array(Array items) {
+    JsonValue value;
+    value.data_ = std::move(items);
+    return value;
+}
+
+JsonValue JsonValue::object() {
+    JsonValue value;
+    value.data_ = Object();
+    return value;
+}
+
+std::string_view JsonValue::kindName() const {
+    static constexpr std::string_view kNames[] = {"null",     "true or false", "a number",
+                                                  "a string", "an array",      "an object"};
+    return kNames[data_.index()];
+}
+
+const JsonMember* JsonValue::find(std::string_view key) const {
+    for (const JsonMember& member : members()) {
+        if (member.key == key) return &member;
+    }
+    return nullptr;
+}
+
+JsonValue& JsonValue::push(JsonValue item) {
+    std::get<Array>(data_).push_back(std::move(item));
+    return *this;
+}
+
+JsonValue& JsonValue::set(std::string key, JsonValue value) {
+    for (JsonMember& member : std::get<Object>(data_)) {
+        if (member.key == key) {
+            member.value = std::move(value);
+            return *this;
+        }
+    }
+    return append({std::move(key), {}, std::move(value)});
+}
+
+JsonValue& JsonValue::append(JsonMember member) {
+    std::get<Object>(data_).push_back(std::move(member));
+    return *this;
+}
+
+}  // namespace sss

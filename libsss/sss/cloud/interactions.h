@@ -1,0 +1,50 @@
+#pragma once
+#include "sss/cloud/octree.h"
+#include "sss/cloud/kernel_table.h"
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+namespace sss {
+
+/// Sources that a group of receivers sums over, laid out for straight vector loops: single points,
+/// or nodes with their second moments.
+class InteractionList {
+public:
+    static constexpr std::size_t kBlock = 64;
+    /// Padded with dark sources to a whole block.
+    struct alignas(64) Block {
+        float x[kBlock], y[kBlock], z[kBlock];
+        float moments[6][kBlock];  ///< xx yy zz xy xz yz; untouched in a list of points
+        float flux[kBlock][4];
+        std::size_t count = 0;
+    };
+
+    void clear() { used_ = 0; }
+    void addPoint(const Vec3& position, const Rgb& flux);
+    void addNode(const OctreeNode& node);
+    std::span<const Block> blocks() const { return std::span(blocks_).first(used_); }
+    std::size_t size() const;
+    /// Fills the last block up.
+    void pad();
+
+private:
+    Block& room();
+    std::vector<Block> blocks_;
+    std::size_t used_ = 0;
+};
+
+/// Adds to sums[i] the sum over the list of flux x f(|receiver - source|^2), with the second-order
+/// term of each node's moments where `withMoments`: f + f' tr Q + 2 f'' d^T Q d, primes by u = r^2.
+/// Highway picks the widest instructions of the machine at run time. Within a block of 64 sums are
+/// float, over blocks double.
+void accumulate(const KernelTable& table, const InteractionList& list, bool withMoments,
+                std::span<const Vec3> receivers, std::span<DRgb> sums);
+/// The same in plain C++: the reference that the vector code is tested against.
+void accumulateScalar(const KernelTable& table, const InteractionList& list, bool withMoments,
+                      std::span<const Vec3> receivers, std::span<DRgb> sums);
+/// Name of the instruction set that accumulate uses here, for statistics.
+const char* accumulateTarget();
+
+}  // namespace sss

@@ -1,0 +1,147 @@
+// The vector code of the diffusion sum. Compiled once for every instruction set that Highway knows
+// for this processor family, chosen when it first runs.
+#include "sss/cloud/interactions.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "sss/cloud/kernel_simd.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace sss::HWY_NAMESPACE {
+namespace {
+
+#if HWY_TARGET == HWY_SCALAR
+// Highway's floor on plain x86-64 (SSE2); the reference is as good there.
+void accumulateAny(const KernelTable& table, const InteractionList& list, bool withMoments,
+                   std::span<const Vec3> receivers, std::span<DRgb> sums) {
+    accumulateScalar(table, list, withMoments, receivers, sums);
+}
+#else
+
+namespace hn = hwy::HWY_NAMESPACE;
+constexpr std::size_t kBlock = InteractionList::kBlock;
+
+// What one receiver needs of each source of a block: the table row, and the weights of c1, c2, c3.
+struct alignas(64) Weights {
+    std::int32_t row[kBlock];
+    float k1[kBlock], k2[kBlock], k3[kBlock];
+};
+
+template <bool kWithMoments>
+HWY_ATTR void weigh(const KernelTable& table, const InteractionList::Block& block,
+                    const Vec3& receiver, Weights& out) {
+    const hn::CappedTag<float, kBlock> d;
+    const hn::RebindToSigned<decltype(d)> di;
+    const auto px = hn::Set(d, receiver.x), py = hn::Set(d, receiver.y), pz = hn::Set(d, receiver.z);
+    const auto u0 = hn::Set(d, table.offsetMm2());
+    const auto base = hn::Set(di, table.baseRow());
+    const auto lastRow = hn::Set(di, static_cast<std::int32_t>(table.rowCount()) - 1);
+    const auto fraction = hn::Set(di, (1 << KernelTable::kShift) - 1);
+    const auto unit = hn::Set(d, 1.0f / static_cast<float>(1 << KernelTable::kShift));
+    for (std::size_t i = 0; i < kBlock; i += hn::Lanes(d)) {
+        const auto dx = hn::Sub(px, hn::Load(d, block.x + i));
+        const auto dy = hn::Sub(py, hn::Load(d, block.y + i));
+        const auto dz = hn::Sub(pz, hn::Load(d, block.z + i));
+        const auto u = hn::MulAdd(dx, dx, hn::MulAdd(dy, dy, hn::MulAdd(dz, dz, u0)));
+        const auto bits = hn::BitCast(di, u);
+        const auto row = hn::Min(hn::Sub(hn::ShiftRight<KernelTable::kShift>(bits), base), lastRow);
+        hn::Store(row, di, out.row + i);
+        const auto t = hn::Mul(hn::ConvertTo(d, hn::And(bits, fraction)), unit);
+        if constexpr (kWithMoments) {
+            const auto exponent = hn::And(bits, hn::Set(di, 0x7f800000));
+            const auto s = hn::Mul(hn::BitCast(d, hn::Sub(hn::Set(di, 254 << 23), exponent)),
+                                   hn::Set(d, static_cast<float>(1 << KernelTable::kSegmentBits)));
+            const auto xx = hn::Load(d, block.moments[0] + i), yy = hn::Load(d, block.moments[1] + i),
+                       zz = hn::Load(d, block.moments[2] + i), xy = hn::Load(d, block.moments[3] + i),
+                       xz = hn::Load(d, block.moments[4] + i), yz = hn::Load(d, block.moments[5] + i);
+            const auto two = hn::Set(d, 2.0f);
+            // d^T Q d with Q d row by row, scaled by s on both sides to stay in range.
+            const auto sx = hn::Mul(s, dx), sy = hn::Mul(s, dy), sz = hn::Mul(s, dz);
+            const auto qx = hn::MulAdd(xx, sx, hn::MulAdd(xy, sy, hn::Mul(xz, sz)));
+            const auto qy = hn::MulAdd(xy, sx, hn::MulAdd(yy, sy, hn::Mul(yz, sz)));
+            const auto qz = hn::MulAdd(xz, sx, hn::MulAdd(yz, sy, hn::Mul(zz, sz)));
+            const auto along = hn::MulAdd(qx, sx, hn::MulAdd(qy, sy, hn::Mul(qz, sz)));
+            const auto a = hn::Mul(s, hn::Add(xx, hn::Add(yy, zz)));
+            const auto b = hn::Mul(two, along);
+            const auto tt = hn::Mul(t, t), ta = hn::Mul(t, a);
+            hn::Store(hn::Add(t, a), d, out.k1 + i);
+            hn::Store(hn::MulAdd(two, hn::Add(ta, b), tt), d, out.k2 + i);
+            hn::Store(hn::Mul(t, hn::MulAdd(hn::Set(d, 3.0f), ta,
+                                            hn::MulAdd(hn::Set(d, 6.0f), b, tt))),
+                      d, out.k3 + i);
+        } else {
+            const auto tt = hn::Mul(t, t);
+            hn::Store(t, d, out.k1 + i);
+            hn::Store(tt, d, out.k2 + i);
+            hn::Store(hn::Mul(t, tt), d, out.k3 + i);
+        }
+    }
+}
+
+// Sum of flux x (c0 + k1 c1 + k2 c2 + k3 c3), all channels of a source in one vector.
+HWY_ATTR void reduce(const KernelTable& table, const InteractionList::Block& block,
+                     const Weights& w, DRgb& sum) {
+    const hn::FixedTag<float, 4> d;
+    const KernelTable::Row* rows = table.rows();
+    auto even = hn::Zero(d), odd = hn::Zero(d);
+    const std::size_t count = (block.count + 1) & ~std::size_t{1};
+    for (std::size_t i = 0; i < count; i += 2) {
+        const auto& p = rows[w.row[i]].c;
+        const auto& q = rows[w.row[i + 1]].c;
+        auto f = hn::MulAdd(hn::Set(d, w.k1[i]), hn::Load(d, p[1]), hn::Load(d, p[0]));
+        auto g = hn::MulAdd(hn::Set(d, w.k1[i + 1]), hn::Load(d, q[1]), hn::Load(d, q[0]));
+        f = hn::MulAdd(hn::Set(d, w.k2[i]), hn::Load(d, p[2]), f);
+        g = hn::MulAdd(hn::Set(d, w.k2[i + 1]), hn::Load(d, q[2]), g);
+        f = hn::MulAdd(hn::Set(d, w.k3[i]), hn::Load(d, p[3]), f);
+        g = hn::MulAdd(hn::Set(d, w.k3[i + 1]), hn::Load(d, q[3]), g);
+        even = hn::MulAdd(f, hn::Load(d, block.flux[i]), even);
+        odd = hn::MulAdd(g, hn::Load(d, block.flux[i + 1]), odd);
+    }
+    alignas(16) float total[4];
+    hn::Store(hn::Add(even, odd), d, total);
+    sum += DRgb(total[0], total[1], total[2]);
+}
+
+template <bool kWithMoments>
+HWY_ATTR void accumulateList(const KernelTable& table, const InteractionList& list,
+                             std::span<const Vec3> receivers, std::span<DRgb> sums) {
+    Weights weights;
+    for (const InteractionList::Block& block : list.blocks())
+        for (std::size_t r = 0; r < receivers.size(); ++r) {
+            weigh<kWithMoments>(table, block, receivers[r], weights);
+            reduce(table, block, weights, sums[r]);
+        }
+}
+
+HWY_ATTR void accumulateAny(const KernelTable& table, const InteractionList& list, bool withMoments,
+                            std::span<const Vec3> receivers, std::span<DRgb> sums) {
+    if (withMoments)
+        accumulateList<true>(table, list, receivers, sums);
+    else
+        accumulateList<false>(table, list, receivers, sums);
+}
+
+#endif
+
+const char* targetName() { return hwy::TargetName(HWY_TARGET); }
+
+}  // namespace
+}  // namespace sss::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace sss {
+
+HWY_EXPORT(accumulateAny);
+HWY_EXPORT(targetName);
+
+void accumulate(const KernelTable& table, const InteractionList& list, bool withMoments,
+                std::span<const Vec3> receivers, std::span<DRgb> sums) {
+    HWY_DYNAMIC_DISPATCH(accumulateAny)(table, list, withMoments, receivers, sums);
+}
+
+const char* accumulateTarget() { return HWY_DYNAMIC_DISPATCH(targetName)(); }
+
+}  // namespace sss
+#endif

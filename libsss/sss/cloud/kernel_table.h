@@ -1,0 +1,65 @@
+#pragma once
+#include "sss/base/vec.h"
+#include "sss/medium/profile.h"
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace sss {
+
+/// Three radial profiles (one a channel) as one table of cubics in u = r^2, made for the inner loop
+/// of the diffusion sum: any profile, however costly, then costs the same few instructions, for all
+/// channels at once.
+///
+/// u + u0 is cut into 16 segments an octave, so that a segment is found from the bits of the float
+/// and no logarithm, root or exponential is left. A row holds c0..c3 for R, G, B and an unused
+/// lane: 64 bytes, a cache line; the table is about 20 KB. f(t) = c0 + t (c1 + t (c2 + t c3)), t in
+/// [0, 1) within the segment; derivatives by u follow from the same row.
+///
+/// A profile that is singular at r = 0 is averaged over the disk of a sample there (its total stays
+/// the same): see regularise().
+class KernelTable {
+public:
+    static constexpr int kSegmentBits = 4;  ///< 2^4 segments an octave
+    static constexpr int kShift = 23 - kSegmentBits;
+    struct alignas(64) Row {
+        float c[4][4];  ///< [power][channel]
+    };
+    /// Upper bounds over all distances >= the row's lower edge, per channel: of f, |grad f|, the
+    /// norm of the second and of the third derivative tensor of f as a function of a 3-D offset.
+    struct BoundsRow {
+        Rgb derivative[4];
+    };
+
+    /// `profiles` may hold the same pointer more than once. Distances up to `reachMm` matter;
+    /// beyond, and where a profile falls below 1e-30 of its peak, the table is 0.
+    /// `cellRadiusMm` is the radius of a disk as large as a sample's cell.
+    KernelTable(const std::array<const Profile*, 3>& profiles, double reachMm, double cellRadiusMm);
+
+    Rgb evaluate(float distanceSquaredMm2) const;
+    const BoundsRow& boundsAt(float distanceSquaredMm2) const {
+        return bounds_[rowOf(distanceSquaredMm2)];
+    }
+    const Row* rows() const { return rows_.data(); }
+    std::size_t rowCount() const { return rows_.size(); }
+    std::int32_t baseRow() const { return base_; }
+    float offsetMm2() const { return u0_; }
+
+private:
+    std::size_t rowOf(float distanceSquaredMm2) const;
+    void fitRows(const std::array<const Profile*, 3>& profiles, double cellRadiusMm);
+    void boundDerivatives(const std::array<const Profile*, 3>& profiles, double cellRadiusMm);
+
+    float u0_ = 0;            // mm^2
+    std::int32_t base_ = 0;   // bits(u0) >> kShift
+    std::vector<Row> rows_;   // the last row is all zero
+    std::vector<BoundsRow> bounds_;
+};
+
+/// R_d(r) with its 1/r singularity averaged over a disk of radius `cellRadiusMm`: finite at 0, the
+/// same beyond 5 cell radii, the same total. The profile itself where it is not singular.
+double regularisedReflectance(const Profile& profile, double rMm, double cellRadiusMm);
+
+}  // namespace sss

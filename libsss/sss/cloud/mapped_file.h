@@ -1,0 +1,28 @@
+#pragma once
+#include <cstddef>
+#include <filesystem>
+#include <span>
+
+namespace sss {
+
+/// A whole file, mapped read-only. What was mapped stays readable when another process renames a
+/// new file over the name.
+class MappedFile {
+public:
+    /// Throws Error{Io} if `path` cannot be opened or is no regular file. An empty file maps to an
+    /// empty span.
+    explicit MappedFile(const std::filesystem::path& path);
+    ~MappedFile();
+    MappedFile(MappedFile&& other) noexcept;
+    MappedFile& operator=(MappedFile&& other) noexcept;
+    MappedFile(const MappedFile&) = delete;
+    MappedFile& operator=(const MappedFile&) = delete;
+
+    /// Page-aligned.
+    std::span<const std::byte> bytes() const { return bytes_; }
+
+private:
+    std::span<const std::byte> bytes_;
+};
+
+}  // namespace sss

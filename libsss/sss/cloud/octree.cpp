@@ -1,0 +1,166 @@
+#include "sss/cloud/octree.h"
+
+#include "sss/base/parallel.h"
+#include "sss/cloud/morton.h"
+
+#include <algorithm>
+#include <array>
+#include <numeric>
+#include <tuple>
+
+namespace sss {
+namespace {
+
+struct Range {
+    std::uint32_t begin, end;
+    int shift;  // the children differ in code bits [shift, shift + 3)
+};
+
+Bounds boundsOf(std::span<const SurfacePoint> points) {
+    Bounds box;
+    for (const SurfacePoint& p : points) box.add(p.position);
+    return box;
+}
+
+// Children of a range: runs of equal 3-bit digits at the highest digit in which the range differs.
+std::vector<Range> split(const Range& range, std::span<const std::uint64_t> codes) {
+    const std::uint64_t difference = codes[range.begin] ^ codes[range.end - 1];
+    if (difference == 0) return {};
+    int shift = range.shift;
+    while ((difference >> shift) == 0) shift -= 3;
+    std::vector<Range> children;
+    std::uint32_t begin = range.begin;
+    while (begin < range.end) {
+        const std::uint64_t digit = codes[begin] >> shift;
+        std::uint32_t end = begin + 1;
+        while (end < range.end && (codes[end] >> shift) == digit) ++end;
+        children.push_back({begin, end, shift - 3});
+        begin = end;
+    }
+    return children;
+}
+
+// Moments of one weight (a channel or the mean) about the node's centroid.
+struct Moments {
+    double weight = 0;
+    DVec3 first{0};
+    std::array<double, 6> second{};
+    double third = 0;
+
+    void add(double w, const DVec3& d) {
+        weight += w;
+        first += w * d;
+        const std::array<double, 6> dd{d.x * d.x, d.y * d.y, d.z * d.z,
+                                       d.x * d.y, d.x * d.z, d.y * d.z};
+        for (std::size_t k = 0; k < 6; ++k) second[k] += w * dd[k];
+        const double lengthSquared = dd[0] + dd[1] + dd[2];
+        third += w * lengthSquared * std::sqrt(lengthSquared);
+    }
+};
+
+double tensorNorm(const std::array<double, 6>& t) {
+    return std::sqrt(t[0] * t[0] + t[1] * t[1] + t[2] * t[2] +
+                     2.0 * (t[3] * t[3] + t[4] * t[4] + t[5] * t[5]));
+}
+
+void summarise(OctreeNode& node, const CloudView& cloud, const Range& range) {
+    DVec3 fluxSum{0}, weighted{0}, areaWeighted{0};
+    double area = 0;
+    Bounds box;
+    for (std::uint32_t i = range.begin; i < range.end; ++i) {
+        const SurfacePoint& p = cloud.points[i];
+        const DVec3 flux = DVec3(cloud.irradiance[i]) * static_cast<double>(p.areaMm2);
+        const double mean = (flux.x + flux.y + flux.z) / 3.0;
+        fluxSum += flux;
+        weighted += mean * DVec3(p.position);
+        area += p.areaMm2;
+        areaWeighted += static_cast<double>(p.areaMm2) * DVec3(p.position);
+        box.add(p.position);
+    }
+    const double total = (fluxSum.x + fluxSum.y + fluxSum.z) / 3.0;
+    const DVec3 centroid =
+        total > 0 ? weighted / total : (area > 0 ? areaWeighted / area : DVec3(box.centre()));
+    node.centroid = glm::clamp(Vec3(centroid), box.lo, box.hi);
+    node.flux = Rgb(fluxSum);
+    node.areaMm2 = static_cast<float>(area);
+    node.lo = box.lo;
+    node.hi = box.hi;
+    if (!(total > 0)) return;
+
+    Moments mean;
+    std::array<Moments, 3> channels;
+    for (std::uint32_t i = range.begin; i < range.end; ++i) {
+        const DVec3 d = DVec3(cloud.points[i].position) - DVec3(node.centroid);
+        const DVec3 flux = DVec3(cloud.flux(i));
+        mean.add((flux.x + flux.y + flux.z) / 3.0, d);
+        for (int c = 0; c < 3; ++c) channels[static_cast<std::size_t>(c)].add(flux[c], d);
+    }
+    for (std::size_t k = 0; k < 6; ++k)
+        node.moments[k] = static_cast<float>(mean.second[k] / mean.weight);
+    double offset = 0, moment = 0, third = 0;
+    for (const Moments& m : channels) {
+        if (!(m.weight > 0)) continue;
+        offset = std::max(offset, glm::length(m.first) / m.weight);
+        third = std::max(third, m.third / m.weight);
+        std::array<double, 6> difference;
+        for (std::size_t k = 0; k < 6; ++k)
+            difference[k] = m.second[k] / m.weight - mean.second[k] / mean.weight;
+        moment = std::max(moment, tensorNorm(difference));
+    }
+    node.chromaticOffset = static_cast<float>(offset);
+    node.chromaticMoment = static_cast<float>(moment);
+    node.thirdMoment = static_cast<float>(third);
+}
+
+}  // namespace
+
+std::vector<std::uint32_t> mortonOrder(std::span<const Vec3> positions) {
+    Bounds box;
+    for (const Vec3& p : positions) box.add(p);
+    const MortonGrid grid(box);
+    std::vector<std::uint64_t> codes(positions.size());
+    parallelFor(positions.size(), 8192, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) codes[i] = grid.code(positions[i]);
+    });
+    std::vector<std::uint32_t> order(positions.size());
+    std::iota(order.begin(), order.end(), 0u);
+    std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+        const Vec3 &p = positions[a], &q = positions[b];
+        return std::tie(codes[a], p.x, p.y, p.z, a) < std::tie(codes[b], q.x, q.y, q.z, b);
+    });
+    return order;
+}
+
+std::vector<OctreeNode> buildOctree(const CloudView& cloud) {
+    std::vector<OctreeNode> nodes;
+    if (cloud.size() == 0) return nodes;
+    const MortonGrid grid(boundsOf(cloud.points));
+    std::vector<std::uint64_t> codes(cloud.size());
+    parallelFor(cloud.size(), 8192, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) codes[i] = grid.code(cloud.points[i].position);
+    });
+
+    std::vector<Range> ranges{{0, static_cast<std::uint32_t>(cloud.size()), 3 * (kMortonBits - 1)}};
+    for (std::size_t n = 0; n < ranges.size(); ++n) {
+        const Range range = ranges[n];
+        OctreeNode node;
+        const std::uint32_t size = range.end - range.begin;
+        std::vector<Range> children;
+        if (size > kLeafPoints) children = split(range, codes);
+        if (children.empty()) {
+            node.first = range.begin;
+            node.count = OctreeNode::kLeaf | size;
+        } else {
+            node.first = static_cast<std::uint32_t>(ranges.size());
+            node.count = static_cast<std::uint32_t>(children.size());
+            ranges.insert(ranges.end(), children.begin(), children.end());
+        }
+        nodes.push_back(node);
+    }
+    parallelFor(nodes.size(), 64, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t n = begin; n < end; ++n) summarise(nodes[n], cloud, ranges[n]);
+    });
+    return nodes;
+}
+
+}  // namespace sss

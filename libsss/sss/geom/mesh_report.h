@@ -1,0 +1,55 @@
+#pragma once
+#include "sss/geom/triangle_mesh.h"
+
+#include <string>
+#include <vector>
+
+namespace sss {
+
+/// What a file held, and what reading did to it.
+struct ReaderReport {
+    std::size_t fileVertices = 0, fileFaces = 0;
+    std::size_t polygons = 0;          ///< faces with more than three corners, cut into triangles
+    std::size_t droppedFaces = 0;      ///< with fewer than three different corners: no surface
+    std::size_t simplifiedPolygons = 0;  ///< that OpenMesh shortens as they use a vertex twice
+    std::size_t mergedVertices = 0;    ///< of an STL: corners at the same place, made one vertex
+    std::size_t splitVertices = 0;     ///< added where one position has several file normals
+    bool hasFileNormals = false;
+    bool ignoredNormals = false;       ///< the file has normals, but not for all corners
+};
+
+/// What is unusual about a mesh; lengths and places in its own unit. Vertices at identical positions
+/// count as one wherever faces meet.
+struct MeshReport {
+    std::size_t vertices = 0, faces = 0;
+    std::size_t components = 0;        ///< joined by edges of exactly two faces
+    std::size_t closedComponents = 0;
+    bool closed = false;               ///< has faces, and none of its edges has an odd number
+
+    std::size_t openEdges = 0;         ///< with one face
+    std::size_t openLoops = 0;         ///< connected runs of them
+    double openLength = 0;             ///< of all open edges
+    double longestLoopLength = 0;
+    DVec3 longestLoopCentre{0};        ///< mean place of the longest loop, by length
+
+    std::size_t nonManifoldEdges = 0;  ///< with three or more faces
+    DVec3 nonManifoldPlace{0};         ///< the middle of the first of them
+    std::size_t duplicateFaces = 0;    ///< same three positions as an earlier face
+    std::size_t degenerateFaces = 0;   ///< no area; see isDegenerate
+    std::size_t unreferencedVertices = 0;
+
+    std::size_t inconsistentEdges = 0;  ///< whose two faces are wound against each other
+    std::size_t flippedFaces = 0;       ///< that repairWinding would flip
+    std::size_t flippedComponents = 0;  ///< that repairWinding would turn as a whole
+    std::size_t nonOrientable = 0;      ///< components that no winding suits
+
+    ReaderReport reader;  ///< filled by readMesh only
+};
+
+/// Everything but what only a reader knows. Near linear: 270,000 faces take about 0.2 s.
+MeshReport inspectMesh(const TriangleMesh& mesh);
+
+/// Plain sentences, one for each thing that deserves a warning, each with what the user can do.
+std::vector<std::string> describe(const MeshReport& report, double mmPerUnit);
+
+}  // namespace sss

@@ -1,0 +1,197 @@
+#include "sss/geom/ray_scene.h"
+
+#include "sss/base/error.h"
+
+#include <embree3/rtcore.h>
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+#include <mutex>
+#include <vector>
+
+namespace sss {
+
+namespace {
+
+[[noreturn]] void throwEmbree(RTCError code, const char* doing) {
+    if (code == RTC_ERROR_OUT_OF_MEMORY)
+        throw Error(ErrorKind::Resource, "rays", fmt::format("out of memory while {}", doing),
+                    "use coarser meshes or a machine with more memory");
+    throw Error(ErrorKind::Internal, "rays",
+                fmt::format("Embree error {} while {}", static_cast<int>(code), doing));
+}
+
+/// The process's Embree device: made for the first scene, released with the last.
+class Device {
+public:
+    Device() {
+        // A fixed number of build tasks (they run in TBB's pool, on as many threads as there are):
+        // Embree orders triangles by task, and on a shared edge that order picks the hit face, so
+        // the machine's core count would otherwise show in the picture.
+        handle_ = rtcNewDevice("threads=8,start_threads=0,set_affinity=0");
+        if (!handle_) throwEmbree(rtcGetDeviceError(nullptr), "starting");
+    }
+    ~Device() { rtcReleaseDevice(handle_); }
+    Device(const Device&) = delete;
+    Device& operator=(const Device&) = delete;
+    RTCDevice get() const { return handle_; }
+    void check(const char* doing) const {
+        const RTCError code = rtcGetDeviceError(handle_);
+        if (code != RTC_ERROR_NONE) throwEmbree(code, doing);
+    }
+
+private:
+    RTCDevice handle_ = nullptr;
+};
+
+std::shared_ptr<Device> sharedDevice() {
+    static std::mutex mutex;
+    static std::weak_ptr<Device> current;
+    const std::lock_guard lock(mutex);
+    std::shared_ptr<Device> device = current.lock();
+    if (!device) current = device = std::make_shared<Device>();
+    return device;
+}
+
+/// Copies `values` into a new buffer that Embree owns and pads.
+template <typename T>
+const T* setBuffer(RTCGeometry geometry, RTCBufferType type, RTCFormat format, std::span<const T> values,
+               const Device& device) {
+    T* buffer = static_cast<T*>(
+        rtcSetNewGeometryBuffer(geometry, type, 0, format, sizeof(T), values.size()));
+    device.check("copying a mesh");
+    if (buffer) std::copy(values.begin(), values.end(), buffer);
+    return buffer;
+}
+
+/// Unit normal of a hit; of a needle whose float cross product vanished, a direction that at least
+/// faces the ray.
+Vec3 unitNormal(const RTCHit& hit, const Vec3& direction) {
+    const DVec3 n(hit.Ng_x, hit.Ng_y, hit.Ng_z);
+    const double length = glm::length(n);
+    return length > 0 ? Vec3(n / length) : -direction;
+}
+
+void fillRay(const Ray& ray, std::uint32_t mask, RTCRay& out) {
+    out.org_x = ray.origin.x;
+    out.org_y = ray.origin.y;
+    out.org_z = ray.origin.z;
+    out.dir_x = ray.direction.x;
+    out.dir_y = ray.direction.y;
+    out.dir_z = ray.direction.z;
+    out.tnear = ray.tMin;
+    out.tfar = ray.tMax;
+    out.time = 0;
+    out.mask = mask;
+    out.id = 0;
+    out.flags = 0;
+}
+
+}  // namespace
+
+struct RayScene::Impl {
+    std::shared_ptr<Device> device = sharedDevice();
+    RTCScene scene = rtcNewScene(device->get());
+
+    Impl() = default;
+    ~Impl() { rtcReleaseScene(scene); }
+    Impl(const Impl&) = delete;
+    Impl& operator=(const Impl&) = delete;
+
+    /// Embree's own copies, which live as long as the scene.
+    struct Mesh {
+        const Vec3* positions;
+        const UVec3* faces;
+    };
+    std::vector<Mesh> meshes;
+    std::array<Vec3, 3> corners(const Hit& hit) const;
+};
+
+RayScene::RayScene(std::span<const Geometry> geometries) : impl_(std::make_unique<Impl>()) {
+    const Device& device = *impl_->device;
+    device.check("making a scene");
+    rtcSetSceneFlags(impl_->scene, RTC_SCENE_FLAG_ROBUST);
+    rtcSetSceneBuildQuality(impl_->scene, RTC_BUILD_QUALITY_MEDIUM);
+    for (std::size_t i = 0; i < geometries.size(); ++i) {
+        const Geometry& input = geometries[i];
+        const RTCGeometry geometry =
+            rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
+        if (!geometry) device.check("adding a mesh");
+        impl_->meshes.push_back(
+            {setBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3, input.positions, device),
+             setBuffer(geometry, RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT3, input.faces, device)});
+        rtcSetGeometryMask(geometry, input.mask);
+        rtcCommitGeometry(geometry);
+        rtcAttachGeometryByID(impl_->scene, geometry, static_cast<unsigned>(i));
+        rtcReleaseGeometry(geometry);
+        device.check("adding a mesh");
+        for (const UVec3& face : input.faces)
+            for (int corner = 0; corner < 3; ++corner) bounds_.add(input.positions[face[corner]]);
+    }
+    rtcCommitScene(impl_->scene);
+    device.check("building the ray hierarchy");
+}
+
+RayScene::~RayScene() = default;
+RayScene::RayScene(RayScene&&) noexcept = default;
+RayScene& RayScene::operator=(RayScene&&) noexcept = default;
+
+bool RayScene::intersect(const Ray& ray, Hit& hit, std::uint32_t mask) const {
+    RTCRayHit query;
+    fillRay(ray, mask, query.ray);
+    query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    rtcIntersect1(impl_->scene, &context, &query);
+    if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return false;
+    hit.t = query.ray.tfar;
+    hit.geometry = query.hit.geomID;
+    hit.face = query.hit.primID;
+    hit.u = query.hit.u;
+    hit.v = query.hit.v;
+    hit.normal = unitNormal(query.hit, ray.direction);
+    return true;
+}
+
+bool RayScene::occluded(const Ray& ray, std::uint32_t mask) const {
+    RTCRay query;
+    fillRay(ray, mask, query);
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    rtcOccluded1(impl_->scene, &context, &query);
+    // Embree marks an occluded ray with tfar = -inf.
+    return query.tfar < ray.tMin;
+}
+
+std::array<Vec3, 3> RayScene::Impl::corners(const Hit& hit) const {
+    const Mesh& mesh = meshes[hit.geometry];
+    const UVec3 face = mesh.faces[hit.face];
+    return {mesh.positions[face.x], mesh.positions[face.y], mesh.positions[face.z]};
+}
+
+Vec3 RayScene::position(const Hit& hit) const {
+    const auto [a, b, c] = impl_->corners(hit);
+    return a * (1.0f - hit.u - hit.v) + b * hit.u + c * hit.v;
+}
+
+namespace {
+
+constexpr float kOffsetUlps = 64.0f * 0x1p-24f;
+
+float largestCoordinate(const Vec3& v) { return maxComponent(glm::abs(v)); }
+
+}  // namespace
+
+Vec3 RayScene::leave(const Hit& hit, const Vec3& normal) const {
+    const auto [a, b, c] = impl_->corners(hit);
+    const float scale =
+        std::fmax(largestCoordinate(a), std::fmax(largestCoordinate(b), largestCoordinate(c)));
+    return position(hit) + normal * (scale * kOffsetUlps);
+}
+
+Vec3 offsetFromSurface(const Vec3& point, const Vec3& normal) {
+    return point + normal * std::fmax(largestCoordinate(point) * kOffsetUlps, 0x1p-16f);
+}
+
+}  // namespace sss

@@ -1,0 +1,25 @@
+#pragma once
+#include "sss/cloud/octree.h"
+#include "sss/cloud/point_cloud.h"
+
+#include <span>
+#include <vector>
+
+namespace sss {
+
+/// What pass 1 makes of a body: points, what enters at each, and the octree over them.
+struct BodyCloud {
+    std::vector<SurfacePoint> points;
+    std::vector<Rgb> irradiance;
+    std::vector<OctreeNode> nodes;
+    double spacingMm = 0;
+
+    struct View {
+        CloudView cloud;
+        std::span<const OctreeNode> nodes;
+        double spacingMm = 0;
+    };
+    View view() const { return {{points, irradiance}, nodes, spacingMm}; }
+};
+
+}  // namespace sss

@@ -1,0 +1,23 @@
+#include "sss/integrate/body_optics.h"
+
+#include "sss/optics/fresnel.h"
+#include "sss/optics/fresnel_moments.h"
+
+namespace sss {
+
+BodyOptics::BodyOptics(const TranslucentMaterial& translucent) : material(translucent) {
+    eta = static_cast<float>(translucent.medium.eta);
+    transmittance = static_cast<float>(hemisphericalTransmittance(translucent.medium.eta));
+    for (int c = 0; c < 3; ++c) {
+        const ChannelMedium channel = translucent.medium.channel(c);
+        auto& profile = profiles[static_cast<std::size_t>(c)];
+        profile = makeProfile(translucent.profile, channel, translucent.profileOptions);
+        diffuseAlbedo[c] = static_cast<float>(profile->total());
+    }
+}
+
+float BodyOptics::radiancePerExitance(float cosine) const {
+    return (1.0f - fresnelReflectance(cosine, eta)) / (kPiF * transmittance);
+}
+
+}  // namespace sss

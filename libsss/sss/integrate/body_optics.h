@@ -1,0 +1,34 @@
+#pragma once
+#include "sss/medium/profile.h"
+#include "sss/world/world.h"
+
+#include <array>
+#include <memory>
+
+namespace sss {
+
+/// What light transport needs to know of a body's material, computed once.
+struct BodyOptics {
+    explicit BodyOptics(const TranslucentMaterial& material);
+
+    const TranslucentMaterial& material;
+    std::array<std::unique_ptr<Profile>, 3> profiles;  ///< channels of equal media share values
+    float eta = 1;
+    /// T: cosine-weighted mean of F_t over the hemisphere. M F_t(w_o) / (pi T) is radiance of
+    /// exitance M exactly.
+    float transmittance = 1;
+    /// By which the diffusion sum is scaled before it leaves, so that light scattered once is not
+    /// counted again by single scattering (medium/energy.h).
+    Rgb multipleScale{1.0f};
+    /// Exitance per transmitted irradiance when mean free paths are short: the diffuse limit
+    /// [JMLH01 section 2.4], single scattering included.
+    Rgb diffuseAlbedo{0.0f};
+
+    std::array<const Profile*, 3> profilePointers() const {
+        return {profiles[0].get(), profiles[1].get(), profiles[2].get()};
+    }
+    /// F_t(w) / (pi T) at a cosine: turns exitance into radiance.
+    float radiancePerExitance(float cosine) const;
+};
+
+}  // namespace sss

@@ -1,0 +1,131 @@
+#include "sss/integrate/bsdf.h"
+
+#include "sss/optics/fresnel.h"
+
+#include <algorithm>
+
+namespace sss {
+namespace {
+
+constexpr float kGrazing = 1e-4f;
+
+Vec3 towards(const Vec3& n, const Vec3& side) { return glm::dot(n, side) < 0 ? -n : n; }
+
+// The interpolated normal on the side of wo, or the face's where the interpolated one looks away.
+Vec3 usableShadingNormal(const SurfaceHit& hit, const Vec3& geometric, const Vec3& wo) {
+    const Vec3 shading = towards(hit.shadingNormal, geometric);
+    return glm::dot(shading, wo) > kGrazing ? shading : geometric;
+}
+
+Vec3 cosineDirection(const Vec2& u) {
+    const float radius = std::sqrt(u.x), phi = 2.0f * kPiF * u.y;
+    return {radius * std::cos(phi), radius * std::sin(phi), std::sqrt(std::max(0.0f, 1.0f - u.x))};
+}
+
+}  // namespace
+
+Bsdf::Bsdf(const World& world, const SurfaceHit& hit, const Vec3& wo, const BodyOptics* optics,
+           BodyShading shading)
+    : geometricNormal_(towards(hit.geometricNormal, wo)),
+      frame_(usableShadingNormal(hit, geometricNormal_, wo)),
+      woLocal_(frame_.toLocal(wo)),
+      optics_(optics) {
+    woLocal_.z = std::max(woLocal_.z, kGrazing);
+    const Material& material = world.material(hit.material);
+    if (const auto* lambertian = std::get_if<LambertianMaterial>(&material)) {
+        kind_ = Kind::Diffuse;
+        albedo_ = lambertian->reflectance;
+    } else if (const auto* metal = std::get_if<MetalMaterial>(&material)) {
+        kind_ = Kind::Conductor;
+        ggx_ = Ggx(static_cast<float>(metal->roughness));
+        index_ = {metal->eta, metal->k};
+        albedo_ = conductorFresnel(woLocal_.z, index_);
+    } else if (const auto* translucent = std::get_if<TranslucentMaterial>(&material)) {
+        albedo_ = optics->diffuseAlbedo;
+        if (shading == BodyShading::DiffuseLimit) {
+            kind_ = Kind::DiffuseLimit;
+        } else if (translucent->surfaceReflection && optics->eta != 1.0f) {
+            kind_ = Kind::Coat;
+            ggx_ = Ggx(static_cast<float>(translucent->roughness));
+        }
+    }
+}
+
+bool Bsdf::hasSmoothPart() const {
+    switch (kind_) {
+        case Kind::Black:
+            return false;
+        case Kind::Diffuse:
+        case Kind::DiffuseLimit:
+            return true;
+        case Kind::Conductor:
+        case Kind::Coat:
+            return !ggx_.isSpecular();
+    }
+    return false;
+}
+
+// BRDF of the two diffuse kinds.
+Rgb Bsdf::diffuseValue(float cosIncident) const {
+    if (kind_ == Kind::Diffuse) return albedo_ * (1.0f / kPiF);
+    const float entering = 1.0f - fresnelReflectance(cosIncident, optics_->eta);
+    return albedo_ * (entering * optics_->radiancePerExitance(woLocal_.z));
+}
+
+Rgb Bsdf::evaluate(const Vec3& wi) const {
+    const Vec3 wiLocal = frame_.toLocal(wi);
+    if (wiLocal.z <= 0 || glm::dot(wi, geometricNormal_) <= 0) return Rgb(0);
+    switch (kind_) {
+        case Kind::Black:
+            return Rgb(0);
+        case Kind::Diffuse:
+        case Kind::DiffuseLimit:
+            return diffuseValue(wiLocal.z) * wiLocal.z;
+        case Kind::Conductor:
+            return conductorReflection(ggx_, woLocal_, wiLocal, index_) * wiLocal.z;
+        case Kind::Coat:
+            return Rgb(dielectricReflection(ggx_, woLocal_, wiLocal, optics_->eta) * wiLocal.z);
+    }
+    return Rgb(0);
+}
+
+float Bsdf::pdf(const Vec3& wi) const {
+    const Vec3 wiLocal = frame_.toLocal(wi);
+    if (wiLocal.z <= 0) return 0;
+    switch (kind_) {
+        case Kind::Black:
+            return 0;
+        case Kind::Diffuse:
+        case Kind::DiffuseLimit:
+            return wiLocal.z / kPiF;
+        case Kind::Conductor:
+        case Kind::Coat:
+            return ggx_.isSpecular() ? 0.0f : ggx_.reflectionPdf(woLocal_, wiLocal);
+    }
+    return 0;
+}
+
+Bsdf::Sample Bsdf::sample(const Vec2& u) const {
+    Sample result;
+    if (kind_ == Kind::Black) return result;
+    if (kind_ == Kind::Diffuse || kind_ == Kind::DiffuseLimit) {
+        const Vec3 wiLocal = cosineDirection(u);
+        if (wiLocal.z <= 0) return result;
+        result.pdf = wiLocal.z / kPiF;
+        result.weight = diffuseValue(wiLocal.z) * kPiF;
+        result.wi = frame_.toWorld(wiLocal);
+    } else {
+        const ReflectionSample reflected =
+            kind_ == Kind::Conductor ? sampleConductor(ggx_, woLocal_, u, index_)
+                                     : sampleDielectricReflection(ggx_, woLocal_, u, optics_->eta);
+        result.pdf = reflected.pdf;
+        result.weight = reflected.weight;
+        result.isDelta = reflected.isDelta;
+        result.wi = frame_.toWorld(reflected.wi);
+    }
+    // Interpolated normals can send light through the surface; it is absorbed.
+    if (glm::dot(result.wi, geometricNormal_) <= 0) result.pdf = 0;
+    return result;
+}
+
+}  // namespace sss

@@ -1,0 +1,32 @@
+#pragma once
+#include "sss/base/reporter.h"
+#include "sss/cloud/surface_sampler.h"
+#include "sss/integrate/path_tracer.h"
+
+#include <vector>
+
+namespace sss {
+
+struct IrradianceResult {
+    std::vector<Rgb> irradiance;  ///< transmitted, per point, W m^-2
+    int samplesPerPoint = 0;      ///< mean
+    /// RMS over the points of the standard error of a point's irradiance, relative to the mean
+    /// irradiance: from the spread of its samples as if they were independent, so an upper bound.
+    double pointNoise = 0;
+    PathCounts counts;
+};
+
+/// Transmitted irradiance E = integral of L_i F_t(w_i) cos over the outer hemisphere, of every point
+/// of a body: direct light of all kinds with shadows, the environment, and light by way of other
+/// surfaces, translucent ones in their diffuse limit, for `bounces` bounces.
+///
+/// The samples of a point are spread over the strata of its cell, so that what is cached is the mean
+/// over the cell: light edges and facets inside a cell are integrated, not missed or hit. The sum over
+/// points averages over all points within reach of the profile, so few samples a point are enough.
+IrradianceResult computeIrradiance(const World& world, int body, const SurfaceSamples& samples,
+                                   const PathTracer& tracer, Reporter& reporter);
+
+/// Samples a point gets for a tolerance.
+int irradianceSamplesFor(const QualitySettings& quality);
+
+}  // namespace sss

@@ -1,0 +1,45 @@
+#pragma once
+#include "sss/base/sampler.h"
+#include "sss/geom/ray_scene.h"
+#include "sss/world/world.h"
+
+#include <cmath>
+#include <limits>
+
+namespace sss {
+
+/// One way to one light: next-event estimation. Not yet known to be free of obstacles.
+struct DirectSample {
+    Vec3 direction{};
+    float distance = 0;
+    /// Radiance over the density of the direction; for delta lights, irradiance on a facing surface
+    /// over the probability of the pick.
+    Rgb radianceOverPdf{0.0f};
+    float pdf = 0;  ///< sr^-1, times the probability of the pick; 0 = nothing found
+    bool isDelta = false;
+};
+DirectSample sampleDirect(const World& world, const Vec3& from, float uPick, const Vec2& u);
+
+/// Whether nothing stands between a point (already off its surface) and the end of a DirectSample.
+bool isVisible(const World& world, const Vec3& from, const DirectSample& sample);
+
+/// How a ray's direction was chosen, for weighing the lights that it finds against light sampling.
+struct ScatterOrigin {
+    Vec3 sampledFrom{};  ///< where light sampling would have started
+    float pdf = std::numeric_limits<float>::infinity();  ///< sr^-1; infinite for cameras and mirrors
+};
+/// Radiance of the lights that a ray of length `distance` meets (infinite if it left the scene),
+/// each weighted against light sampling by the power heuristic.
+Rgb radianceOfLights(const World& world, const Ray& ray, float distance, const ScatterOrigin& origin);
+/// The same for the emitting surface that a ray hit.
+Rgb radianceOfEmitter(const World& world, const Ray& ray, const SurfaceHit& hit,
+                      const ScatterOrigin& origin);
+
+/// Weight of a sample of density `pdf` beside another technique of density `other`.
+inline float powerHeuristic(float pdf, float other) {
+    if (std::isinf(pdf)) return 1.0f;
+    const float ratio = other / pdf;
+    return 1.0f / (1.0f + ratio * ratio);
+}
+
+}  // namespace sss

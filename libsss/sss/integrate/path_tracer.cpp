@@ -1,0 +1,147 @@
+#include "sss/integrate/path_tracer.h"
+
+#include "sss/integrate/single_scatter.h"
+
+#include <algorithm>
+
+namespace sss {
+namespace {
+
+// Paths longer than this are continued by chance.
+constexpr int kRouletteDepth = 3;
+
+}  // namespace
+
+void PathCounts::add(const PathCounts& other) {
+    cameraSamples += other.cameraSamples;
+    rays += other.rays;
+    diffusionLookups += other.diffusionLookups;
+    singleSamples += other.singleSamples;
+}
+
+PathTracer::PathTracer(const World& world, std::span<const std::unique_ptr<BodyOptics>> optics,
+                       std::span<const std::unique_ptr<BodyField>> fields)
+    : world_(world), optics_(optics), fields_(fields) {}
+
+Bsdf PathTracer::bsdfAt(const SurfaceHit& hit, const Vec3& wo) const {
+    const BodyOptics* optics =
+        hit.body >= 0 ? optics_[static_cast<std::size_t>(hit.body)].get() : nullptr;
+    return Bsdf(world_, hit, wo, optics,
+                fields_.empty() ? Bsdf::BodyShading::DiffuseLimit : Bsdf::BodyShading::Surface);
+}
+
+Rgb PathTracer::directLight(const SurfaceHit& hit, const Bsdf& bsdf, Sampler& sampler,
+                            PathCounts& counts) const {
+    const float uPick = sampler.next1D();
+    const Vec2 uLight = sampler.next2D();
+    if (!bsdf.hasSmoothPart()) return Rgb(0);
+    const Vec3 from = offsetFromSurface(hit.position, bsdf.geometricNormal());
+    const DirectSample direct = sampleDirect(world_, from, uPick, uLight);
+    if (!(direct.pdf > 0)) return Rgb(0);
+    const Rgb value = bsdf.evaluate(direct.direction);
+    if (isZero(value)) return Rgb(0);
+    ++counts.rays;
+    if (!isVisible(world_, from, direct)) return Rgb(0);
+    const float weight =
+        direct.isDelta ? 1.0f : powerHeuristic(direct.pdf, bsdf.pdf(direct.direction));
+    return value * direct.radianceOverPdf * weight;
+}
+
+Rgb PathTracer::diffusion(const SurfaceHit& hit, const Bsdf& bsdf, PathCounts& counts) const {
+    if (hit.body < 0 || fields_.empty()) return Rgb(0);
+    const auto body = static_cast<std::size_t>(hit.body);
+    const BodyOptics& optics = *optics_[body];
+    if (!optics.material.multipleScattering) return Rgb(0);
+    ++counts.diffusionLookups;
+    return fields_[body]->exitance(hit.bodyFace, hit.barycentrics) *
+           optics.radiancePerExitance(bsdf.cosOutgoing());
+}
+
+Rgb PathTracer::single(const SurfaceHit& hit, const Bsdf& bsdf, const Vec3& wo, int bounces,
+                       Sampler& sampler, PathCounts& counts) const {
+    SingleScatterCounts spent;
+    const Rgb radiance = singleScattering(
+        world_, *optics_[static_cast<std::size_t>(hit.body)], hit, wo, bsdf.shadingNormal(), sampler,
+        [&](const Ray& ray, const Vec3& from, float pdf) {
+            return incoming(ray, {from, pdf}, std::min(bounces, 1), sampler, counts);
+        },
+        spent);
+    counts.singleSamples += spent.samples;
+    counts.rays += spent.rays;
+    return radiance;
+}
+
+bool PathTracer::scatter(const SurfaceHit& hit, const Bsdf& bsdf, Sampler& sampler, Ray& ray,
+                         ScatterOrigin& origin, Rgb& throughput) const {
+    const Bsdf::Sample next = bsdf.sample(sampler.next2D());
+    if (!(next.pdf > 0) || isZero(next.weight)) return false;
+    throughput *= next.weight;
+    ray = Ray{};
+    ray.origin = offsetFromSurface(hit.position, bsdf.geometricNormal());
+    ray.direction = next.wi;
+    origin = next.isDelta ? ScatterOrigin{} : ScatterOrigin{ray.origin, next.pdf};
+    return true;
+}
+
+Rgb PathTracer::incoming(Ray ray, ScatterOrigin origin, int bounces, Sampler& sampler,
+                         PathCounts& counts) const {
+    Rgb sum(0), throughput(1);
+    for (int depth = 0;; ++depth) {
+        Hit found;
+        ++counts.rays;
+        const bool isHit = world_.rays().intersect(ray, found);
+        const float distance = isHit ? found.t : std::numeric_limits<float>::infinity();
+        sum += throughput * radianceOfLights(world_, ray, distance, origin);
+        if (!isHit) return sum;
+        const SurfaceHit hit = world_.surfaceAt(found);
+        sum += throughput * radianceOfEmitter(world_, ray, hit, origin);
+        if (depth >= bounces) return sum;
+        const Vec3 wo = -ray.direction;
+        const Bsdf bsdf = bsdfAt(hit, wo);
+        // Seen at second hand, all that comes from within is taken from the diffusion, unscaled:
+        // the profile's total has the light scattered once in it.
+        sum += throughput * (directLight(hit, bsdf, sampler, counts) + diffusion(hit, bsdf, counts));
+        if (!scatter(hit, bsdf, sampler, ray, origin, throughput)) return sum;
+        const float uRoulette = sampler.next1D();
+        if (depth + 1 >= kRouletteDepth) {
+            const float survival = std::min(0.95f, maxComponent(throughput));
+            if (!(uRoulette < survival)) return sum;
+            throughput /= survival;
+        }
+    }
+}
+
+FilmSample PathTracer::trace(const Ray& ray, Sampler& sampler, PathCounts& counts) const {
+    FilmSample sample;
+    ++counts.cameraSamples;
+    ++counts.rays;
+    Hit found;
+    const bool isHit = world_.rays().intersect(ray, found);
+    const float distance = isHit ? found.t : std::numeric_limits<float>::infinity();
+    sample.surface = radianceOfLights(world_, ray, distance, {});
+    if (!isHit) return sample;
+    const SurfaceHit hit = world_.surfaceAt(found);
+    const Vec3 wo = -ray.direction;
+    const Bsdf bsdf = bsdfAt(hit, wo);
+    const int bounces = world_.scene().quality.bounces;
+    sample.alpha = 1;
+    sample.depth = found.t * glm::dot(ray.direction, world_.camera().forward());
+    sample.normal = bsdf.shadingNormal();
+    sample.albedo = bsdf.albedo();
+    sample.surface += radianceOfEmitter(world_, ray, hit, {});
+    sample.surface += directLight(hit, bsdf, sampler, counts);
+    if (hit.body >= 0 && !fields_.empty()) {
+        const BodyOptics& optics = *optics_[static_cast<std::size_t>(hit.body)];
+        sample.diffusion = diffusion(hit, bsdf, counts) * optics.multipleScale;
+        if (optics.material.singleScattering)
+            sample.single = single(hit, bsdf, wo, bounces, sampler, counts);
+    }
+    Ray next;
+    ScatterOrigin origin;
+    Rgb throughput(1);
+    if (scatter(hit, bsdf, sampler, next, origin, throughput))
+        sample.surface += throughput * incoming(next, origin, bounces, sampler, counts);
+    return sample;
+}
+
+}  // namespace sss

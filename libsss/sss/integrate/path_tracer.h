@@ -1,0 +1,59 @@
+#pragma once
+#include "sss/base/sampler.h"
+#include "sss/image/film.h"
+#include "sss/integrate/body_field.h"
+#include "sss/integrate/body_optics.h"
+#include "sss/integrate/bsdf.h"
+#include "sss/integrate/light_sampling.h"
+#include "sss/world/world.h"
+
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace sss {
+
+struct PathCounts {
+    std::uint64_t cameraSamples = 0;
+    std::uint64_t rays = 0;         ///< of all kinds
+    std::uint64_t diffusionLookups = 0;
+    std::uint64_t singleSamples = 0;
+
+    void add(const PathCounts& other);
+};
+
+/// Path tracing with next-event estimation and multiple importance sampling. Translucent bodies
+/// reflect, send out the exitance of their field, and scatter singly; without fields (pass 1) they
+/// stand in their diffuse limit. Const and thread-safe.
+class PathTracer {
+public:
+    /// `optics` by body; `fields` by body, or empty for the diffuse limit. All outlive the tracer.
+    PathTracer(const World& world, std::span<const std::unique_ptr<BodyOptics>> optics,
+               std::span<const std::unique_ptr<BodyField>> fields);
+
+    /// The camera's view along a ray, by layer: what the first surface sends out from within by
+    /// multiple scattering, by single scattering, and everything else.
+    FilmSample trace(const Ray& ray, Sampler& sampler, PathCounts& counts) const;
+
+    /// Radiance that arrives along a ray: lights (weighted by `origin`), and surfaces as long as
+    /// `bounces` allows (0 = lights and emitters only).
+    Rgb incoming(Ray ray, ScatterOrigin origin, int bounces, Sampler& sampler,
+                 PathCounts& counts) const;
+
+private:
+    Rgb diffusion(const SurfaceHit& hit, const Bsdf& bsdf, PathCounts& counts) const;
+    Rgb single(const SurfaceHit& hit, const Bsdf& bsdf, const Vec3& wo, int bounces,
+               Sampler& sampler, PathCounts& counts) const;
+    Rgb directLight(const SurfaceHit& hit, const Bsdf& bsdf, Sampler& sampler,
+                    PathCounts& counts) const;
+    Bsdf bsdfAt(const SurfaceHit& hit, const Vec3& wo) const;
+    /// Draws the next ray; false if the path ends.
+    bool scatter(const SurfaceHit& hit, const Bsdf& bsdf, Sampler& sampler, Ray& ray,
+                 ScatterOrigin& origin, Rgb& throughput) const;
+
+    const World& world_;
+    std::span<const std::unique_ptr<BodyOptics>> optics_;
+    std::span<const std::unique_ptr<BodyField>> fields_;
+};
+
+}  // namespace sss

@@ -1,0 +1,21 @@
+#pragma once
+#include "sss/base/reporter.h"
+#include "sss/image/film.h"
+#include "sss/integrate/path_tracer.h"
+
+#include <span>
+
+namespace sss {
+
+struct RenderResult {
+    LayeredImage image;
+    PathCounts counts;
+    Film::Dropped dropped;
+};
+
+/// Pass 2: the picture of `world`, `fields` by body. Tiles are independent; the bytes depend on the
+/// scene, its seed and sample count only.
+RenderResult render(const World& world, std::span<const std::unique_ptr<BodyOptics>> optics,
+                    std::span<const std::unique_ptr<BodyField>> fields, Reporter& reporter);
+
+}  // namespace sss

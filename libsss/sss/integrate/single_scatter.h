@@ -1,0 +1,34 @@
+#pragma once
+#include "sss/base/sampler.h"
+#include "sss/integrate/body_optics.h"
+#include "sss/world/world.h"
+
+#include <functional>
+
+namespace sss {
+
+/// Light that arrives from outside along a ray: lights, weighted by the given density against light
+/// sampling from `sampledFrom`, and whatever else the caller's light transport finds there.
+using IncomingRadiance =
+    std::function<Rgb(const Ray& ray, const Vec3& sampledFrom, float scatterPdf)>;
+
+/// Ray counts of single scattering.
+struct SingleScatterCounts {
+    std::uint64_t samples = 0, rays = 0;
+};
+
+/// One estimate of the radiance that leaves a body at `hit` towards `wo` after exactly one
+/// scattering inside it [JMLH01 section 2.3, rigorous form].
+///
+/// A distance s is sampled along the refracted ray by its extinction; at that point in-scattered
+/// light is found by light sampling and by sampling the phase function, combined by the power
+/// heuristic. Light is taken to come in straight, and its path inside is corrected by Snell's law
+/// [JMLH01 Eq. 8], exact for a plane boundary:
+///   L_o = F_t(w_o)/eta^2  int sigma_s e^{-sigma_t s}  int p F_t(w_i) (mu_i / mu_i') e^{-sigma_t s_i'} L_i dw_i ds
+/// with dw_i in exterior solid angle. The factor (mu_i / mu_i') and 1/eta^2 are what [JMLH01 Eq. 7]
+/// leaves out. Needs a closed body: where a ray finds no way out nothing is added.
+Rgb singleScattering(const World& world, const BodyOptics& optics, const SurfaceHit& hit,
+                     const Vec3& wo, const Vec3& normal, Sampler& sampler,
+                     const IncomingRadiance& incoming, SingleScatterCounts& counts);
+
+}  // namespace sss

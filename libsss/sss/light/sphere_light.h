@@ -1,0 +1,24 @@
+#pragma once
+#include "sss/light/light.h"
+#include "sss/scene/scene.h"
+
+namespace sss {
+
+/// A sphere of constant radiance that shines outwards, sampled uniformly in the cone in which it is
+/// seen. From inside there is nothing to see.
+class SphereLightSource final : public Light {
+public:
+    SphereLightSource(const SphereLight& settings, const DVec3& originMm);
+    LightSample sample(const Vec3& from, const Vec2& u) const override;
+    Seen seen(const Vec3& from, const Vec3& direction) const override;
+    float importance(const Bounds& target) const override;
+
+private:
+    /// 1 - cos of the cone's half angle from a point outside; without cancellation far away.
+    double coneHeight(double distance2) const;
+    DVec3 centre_;
+    double radius_;
+    Rgb radiance_;
+};
+
+}  // namespace sss

@@ -1,0 +1,24 @@
+#pragma once
+#include "sss/light/light.h"
+#include "sss/scene/scene.h"
+
+namespace sss {
+
+/// A point light within a cone; the intensity falls from its value on the axis to 0 over the
+/// penumbra, smoothly in the cosine (cubic).
+class SpotLightSource final : public Light {
+public:
+    SpotLightSource(const SpotLight& settings, const DVec3& originMm);
+    LightSample sample(const Vec3& from, const Vec2& u) const override;
+    bool isDelta() const override { return true; }
+    Seen seen(const Vec3&, const Vec3&) const override { return {}; }
+    float importance(const Bounds& target) const override;
+
+private:
+    double falloff(double cosine) const;
+    DVec3 position_, axis_;
+    Rgb intensity_;  ///< W sr^-1 on the axis, times kMm2PerM2
+    double cosOuter_, cosInner_;
+};
+
+}  // namespace sss

@@ -1,0 +1,237 @@
+#include "sss/medium/half_space.h"
+
+#include "sss/base/vec.h"
+#include "sss/medium/small_matrix.h"
+#include "sss/optics/fresnel.h"
+#include "sss/optics/gauss_legendre.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace sss {
+namespace {
+
+/// A direction inside, with the weight of its part of the hemisphere and the boundary's reflectance.
+struct Direction {
+    double cosine, weight, reflectance;
+};
+
+constexpr std::size_t kLegendreTerms = 24;
+constexpr double kThinLayer = 1e-8;
+/// 1 - alpha' below which the rounding of the thin layer would count as absorption.
+constexpr double kLeastAbsorption = 1e-5;
+
+/// Above the critical angle in the cosine outside, where Fresnel's formulas are smooth, and below it
+/// in the cosine inside; last comes the normal, with weight 0: light may start there.
+std::vector<Direction> directionsInside(double eta) {
+    std::vector<Direction> directions;
+    const double critical = eta > 1 ? std::sqrt((eta - 1) * (eta + 1)) / eta : 0.0;
+    for (const GaussPoint& point : kGauss16) {
+        if (eta > 1) {
+            const double mu = critical * point.node;
+            directions.push_back({mu, critical * point.weight, 1.0});
+        } else {
+            const double mu = 0.5 * point.node;
+            directions.push_back({mu, 0.5 * point.weight, fresnelReflectanceFromInside(mu, eta)});
+        }
+    }
+    for (const GaussPoint& point : kGauss16) {
+        if (eta > 1) {
+            const double outside = point.node;
+            const double mu = refractedCosine(outside, eta);
+            const double slope = outside / (eta * eta * mu);  // d mu / d outside
+            directions.push_back({mu, slope * point.weight, fresnelReflectance(outside, eta)});
+        } else {
+            const double mu = 0.5 + 0.5 * point.node;
+            directions.push_back({mu, 0.5 * point.weight, fresnelReflectanceFromInside(mu, eta)});
+        }
+    }
+    directions.push_back({1.0, 0.0, fresnelReflectance(1.0, eta)});
+    return directions;
+}
+
+/// Azimuthal mean of the phase function, times 4 pi, for light that keeps its sense of depth (same)
+/// and that turns back, with the forward peak taken out; columns conserve flux exactly.
+struct Redistribution {
+    SmallMatrix same, turned;
+};
+
+Redistribution redistribution(const std::vector<Direction>& directions, double g, double peak) {
+    const std::size_t n = directions.size();
+    Redistribution p{SmallMatrix(n), SmallMatrix(n)};
+    std::vector<double> before(n, 0.0), now(n, 1.0);  // Legendre polynomials l - 1 and l
+    double moment = 1;
+    for (std::size_t l = 0; l < kLegendreTerms; ++l) {
+        const double degree = static_cast<double>(l);
+        const double term = (2 * degree + 1) * (moment - peak) / (1 - peak);
+        const double sign = l % 2 == 0 ? 1 : -1;
+        for (std::size_t i = 0; i < n; ++i) {
+            for (std::size_t j = 0; j < n; ++j) {
+                p.same(i, j) += term * now[i] * now[j];
+                p.turned(i, j) += sign * term * now[i] * now[j];
+            }
+        }
+        for (std::size_t i = 0; i < n; ++i) {
+            const double next =
+                ((2 * degree + 1) * directions[i].cosine * now[i] - degree * before[i]) /
+                (degree + 1);
+            before[i] = now[i];
+            now[i] = next;
+        }
+        moment *= g;
+    }
+    for (std::size_t j = 0; j < n; ++j) {
+        double sum = 0;
+        for (std::size_t i = 0; i < n; ++i) {
+            sum += 0.5 * directions[i].weight * (p.same(i, j) + p.turned(i, j));
+        }
+        for (std::size_t i = 0; i < n; ++i) {
+            p.same(i, j) /= sum;
+            p.turned(i, j) /= sum;
+        }
+    }
+    return p;
+}
+
+/// Reflection operator of the half-space without its boundary: element (i, j) is the share of the
+/// flux in direction j that comes back in direction i.
+SmallMatrix bareReflection(const std::vector<Direction>& directions, double g, double absorption) {
+    const double albedo = 1 - absorption;
+    const double peak = std::pow(g, static_cast<double>(kLegendreTerms));
+    // delta-M: what is scattered into the peak is not scattered.
+    const double reduced = albedo * (1 - peak) / (absorption + albedo * (1 - peak));
+    const Redistribution p = redistribution(directions, g, peak);
+    const std::size_t n = directions.size();
+    SmallMatrix reflect(n), transmit = SmallMatrix::identity(n);
+    for (std::size_t j = 0; j < n; ++j) {
+        const double path = kThinLayer / directions[j].cosine;
+        transmit(j, j) = std::exp(-path);
+        const double scattered = -std::expm1(-path) * reduced;
+        for (std::size_t i = 0; i < n; ++i) {
+            const double share = 0.5 * scattered * directions[i].weight;
+            reflect(i, j) = share * p.turned(i, j);
+            transmit(i, j) += share * p.same(i, j);
+        }
+    }
+    // The layer doubles until what it lets through no longer matters; 54 times is 2e8 mean free
+    // paths, beyond which rounding gains on the remainder.
+    for (int i = 0; i < 54; ++i) {
+        const SmallMatrix between = SmallMatrix::solveIdentityMinus(reflect * reflect, transmit);
+        reflect += transmit * (reflect * between);
+        transmit = transmit * between;
+    }
+    return reflect;
+}
+
+/// Flux that leaves in the end, of the flux `inside` that starts downwards just below the boundary.
+double leaving(const SmallMatrix& reflect, const std::vector<Direction>& directions,
+               const std::vector<double>& inside) {
+    const std::size_t n = directions.size();
+    SmallMatrix back(n), first(n);
+    for (std::size_t i = 0; i < n; ++i) {
+        for (std::size_t j = 0; j < n; ++j) {
+            back(i, j) = reflect(i, j) * directions[j].reflectance;
+            first(i, 0) += reflect(i, j) * inside[j];
+        }
+    }
+    const SmallMatrix up = SmallMatrix::solveIdentityMinus(back, first);
+    double sum = 0;
+    for (std::size_t i = 0; i < n; ++i) sum += (1 - directions[i].reflectance) * up(i, 0);
+    return sum;
+}
+
+/// Transmitted diffuse light by direction inside: dE = 2 c (1 - F) dc = 2 eta^2 mu (1 - F) dmu.
+std::vector<double> diffuseEntry(const std::vector<Direction>& directions) {
+    std::vector<double> flux;
+    double sum = 0;
+    for (const Direction& d : directions) {
+        flux.push_back(d.cosine * d.weight * (1 - d.reflectance));
+        sum += flux.back();
+    }
+    for (double& f : flux) f /= sum;
+    return flux;
+}
+
+/// Mean over the azimuth of the phase function for directions in and out on either side of the
+/// normal: cos Theta = -mu mu' - sin sin' cos phi.
+double meanPhase(double in, double out, double g, int steps) {
+    if (g == 0) return 1 / (4 * kPi);
+    const double along = -in * out;
+    const double across = std::sqrt(std::max(0.0, (1 - in * in) * (1 - out * out)));
+    // The trapezoidal rule on a period converges exponentially.
+    double sum = 0;
+    for (int i = 0; i < steps; ++i) {
+        const double angle = kPi * (i + 0.5) / steps;
+        const double cosTheta = along + across * std::cos(angle);
+        const double d = 1 + g * g - 2 * g * cosTheta;
+        sum += 1 / (d * std::sqrt(d));
+    }
+    return (1 - g) * (1 + g) / (4 * kPi) * sum / steps;
+}
+
+/// Directions through which light passes, graded towards grazing and the normal: Fresnel's formulas
+/// vary fast at the former for eta near 1, sharp phase functions at the latter.
+std::vector<Direction> passingDirections(double eta) {
+    constexpr std::array kEdges{0.0, 1e-4, 4e-4, 1.6e-3, 6.4e-3, 0.0256, 0.1, 0.4,
+                                0.7, 0.9,  0.97, 0.99,   0.998,  0.9996, 1.0};
+    std::vector<Direction> directions;
+    for (std::size_t k = 0; k + 1 < kEdges.size(); ++k) {
+        const double width = kEdges[k + 1] - kEdges[k];
+        for (const GaussPoint& point : kGauss16) {
+            const double x = kEdges[k] + width * point.node;
+            if (eta > 1) {
+                const double mu = refractedCosine(x, eta);
+                directions.push_back({mu, width * point.weight * x / (eta * eta * mu),
+                                      fresnelReflectance(x, eta)});
+            } else {
+                directions.push_back(
+                    {x, width * point.weight, fresnelReflectanceFromInside(x, eta)});
+            }
+        }
+    }
+    return directions;
+}
+
+}  // namespace
+
+HalfSpaceTotals halfSpaceTotals(const ChannelMedium& medium) {
+    if (medium.sigmaS == 0) return {0, 0};
+    if (medium.sigmaA == 0) return {1, 1};
+    if (const double absorption = medium.reducedAbsorption(); absorption < kLeastAbsorption) {
+        // log R is linear in sqrt(1 - alpha') there, up to (1 - alpha')^1.5.
+        ChannelMedium other = medium;
+        other.sigmaA = 1.001 * kLeastAbsorption / (1 - kLeastAbsorption) * medium.sigmaSPrime();
+        const HalfSpaceTotals at = halfSpaceTotals(other);
+        const double power = std::sqrt(absorption / other.reducedAbsorption());
+        return {std::pow(at.normal, power), std::pow(at.diffuse, power)};
+    }
+    const std::vector<Direction> directions = directionsInside(medium.eta);
+    const double absorption = medium.sigmaA / medium.sigmaT();
+    const SmallMatrix reflect = bareReflection(directions, medium.g, absorption);
+    std::vector<double> along(directions.size(), 0.0);
+    along.back() = 1;
+    return {leaving(reflect, directions, along),
+            leaving(reflect, directions, diffuseEntry(directions))};
+}
+
+double singleScatterAlbedo(const ChannelMedium& medium, Illumination illumination) {
+    if (medium.sigmaS == 0) return 0;
+    const std::vector<Direction> directions = passingDirections(medium.eta);
+    const int steps = std::clamp(static_cast<int>(10 / (1 - std::abs(medium.g))), 16, 256);
+    const auto outOf = [&](double in) {
+        double sum = 0;
+        for (const Direction& d : directions) {
+            sum += meanPhase(in, d.cosine, medium.g, steps) * (1 - d.reflectance) * d.cosine /
+                   (in + d.cosine) * d.weight;
+        }
+        return 2 * kPi * medium.albedo() * sum;
+    };
+    if (illumination == Illumination::Normal) return outOf(1.0);
+    const std::vector<double> entry = diffuseEntry(directions);
+    double sum = 0;
+    for (std::size_t i = 0; i < entry.size(); ++i) sum += entry[i] * outOf(directions[i].cosine);
+    return sum;
+}
+
+}  // namespace sss

@@ -1,0 +1,131 @@
+#include "sss/medium/photon_beam.h"
+
+#include "sss/medium/image_source.h"
+#include "sss/optics/fresnel.h"
+#include "sss/optics/gauss_legendre.h"
+#include "sss/optics/phase.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace sss {
+namespace {
+
+/// Integral over [0, range] of an f whose singularities lie on the imaginary axis: panels growing
+/// by a factor of 4 from `first`, none longer than `longest`.
+template <typename Function>
+double gradedQuadrature(double first, double longest, double range, const Function& f) {
+    double sum = gauss16(0, first, f);
+    for (double lo = first; lo < range;) {
+        const double hi = std::min({4 * lo, lo + longest, range});
+        sum += gauss16(lo, hi, f);
+        lo = hi;
+    }
+    return sum;
+}
+
+/// Attenuations beyond this are 0: e^-45 = 3e-20.
+constexpr double kRange = 45;
+
+}  // namespace
+
+PhotonBeam::PhotonBeam(const ChannelMedium& medium, Part part, const ProfileOptions& options)
+    : Profile(medium.meanFreePathMm()),
+      medium_(medium),
+      grosjean_(medium, options.boundary == BoundaryModel::Polynomial
+                            ? roundedPolynomialFresnelMoments(medium.eta)
+                            : exactFresnelMoments(medium.eta)),
+      part_(part),
+      samples_(options.beamSamples),
+      sigmaTPrime_(medium.sigmaTPrime()),
+      extinction_(sigmaTPrime_ > 0 ? medium.sigmaT() / sigmaTPrime_ : 1) {
+    if (medium_.sigmaS == 0) return;
+    const double decay = part == Part::Multiple ? grosjean_.sigmaTr : 2 * extinction_;
+    quadrature_ = std::make_unique<RadialQuadrature>(
+        [this](double r) { return reflectance(r); }, scaleMm(),
+        4 * scaleMm() / std::max(decay, 1e-300));
+    total_ = std::min(quadrature_->tail(0), 1.0);
+}
+
+double PhotonBeam::reflectance(double rMm) const {
+    if (medium_.sigmaS == 0) return 0;
+    if (rMm == 0) return std::numeric_limits<double>::infinity();
+    const double r = rMm * sigmaTPrime_;
+    const double scale = sigmaTPrime_ * sigmaTPrime_;
+    if (samples_ > 0) {
+        return scale * (part_ == Part::Multiple ? multipleSampled(r) : singleSampled(r));
+    }
+    return scale * (part_ == Part::Multiple ? multiple(r) : single(r));
+}
+
+double PhotonBeam::tail(double aMm) const { return quadrature_ ? quadrature_->tail(aMm) : 0.0; }
+
+// [HCJ13 Eq. 9, 10]: dipole of a source at `depth`, times kappa alpha'^2.
+double PhotonBeam::multipleFromDepth(double r, double depth) const {
+    const double mirror = depth + grosjean_.extrapolation;
+    const double sigmaTr = grosjean_.sigmaTr;
+    const double flux = fluxKernel(depth, sigmaTr, r) + fluxKernel(mirror, sigmaTr, r);
+    const double fluence = fluenceKernel(depth, mirror, sigmaTr, r);
+    const double kappa = -std::expm1(-2 * (slant(r, depth) + depth));
+    const double albedo = medium_.reducedAlbedo();
+    return kappa * albedo * albedo *
+           (grosjean_.fluenceWeight * fluence + grosjean_.fluxWeight * flux) / (4 * kPi);
+}
+
+double PhotonBeam::multiple(double r) const {
+    return gradedQuadrature(0.25 * std::min(r, 1.0), 3, kRange, [&](double depth) {
+        return std::exp(-depth) * multipleFromDepth(r, depth);
+    });
+}
+
+double PhotonBeam::multipleSampled(double r) const {
+    double sum = 0;
+    for (int i = 0; i < samples_; ++i) {
+        sum += multipleFromDepth(r, -std::log1p(-(i + 0.5) / samples_));
+    }
+    return sum / samples_;
+}
+
+/// Light that reaches `depth`, scatters there and leaves at r, per depth; without sigma_s.
+double PhotonBeam::singleFromDepth(double r, double depth) const {
+    const double d = slant(r, depth);
+    const double cosine = depth / d;
+    return std::exp(-extinction_ * (depth + d)) * henyeyGreenstein(-cosine, medium_.g) * cosine /
+           (d * d);
+}
+
+// Integrated over y with depth^2 = t_c^2 + y^2, where t_c is the depth of the critical angle: the
+// cosine outside is y / sqrt(y^2 + (r eta)^2), and the root singularity of Fresnel's formulas at
+// the critical angle is gone. Below eta = 1 there is no critical angle, t_c = 0.
+double PhotonBeam::single(double r) const {
+    const double eta = medium_.eta;
+    const double critical = eta > 1 ? r * std::sqrt((eta - 1) * (eta + 1)) : 0.0;
+    const double reach = kRange / extinction_;
+    const double range = std::sqrt(reach * (reach + 2 * critical));
+    const double scatter = medium_.sigmaS / sigmaTPrime_;
+    const double smallest = std::min({critical > 0 ? critical : r, r, r * eta, 1 / extinction_});
+    return gradedQuadrature(0.25 * smallest, 3 / extinction_, range, [&](double y) {
+        const double depth = slant(critical, y);
+        const double reflected =
+            eta > 1 ? fresnelReflectance(y / slant(y, r * eta), eta)
+                    : fresnelReflectanceFromInside(depth / slant(r, depth), eta);
+        return scatter * singleFromDepth(r, depth) * (1 - reflected) * (y / depth);
+    });
+}
+
+double PhotonBeam::singleSampled(double r) const {
+    const double eta = medium_.eta;
+    const double critical = eta > 1 ? r * std::sqrt((eta - 1) * (eta + 1)) : 0.0;
+    double sum = 0;
+    for (int i = 0; i < samples_; ++i) {
+        const double depth = critical - std::log1p(-(i + 0.5) / samples_) / extinction_;
+        const double cosine = depth / slant(r, depth);
+        // The sample's density carries e^{-sigma_t (depth - critical)}.
+        sum += singleFromDepth(r, depth) * std::exp(extinction_ * (depth - critical)) *
+               (1 - fresnelReflectanceFromInside(cosine, eta));
+    }
+    return medium_.albedo() * sum / samples_;
+}
+
+}  // namespace sss

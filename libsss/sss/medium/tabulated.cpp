@@ -1,0 +1,107 @@
+#include "sss/medium/tabulated.h"
+
+#include "sss/medium/photon_beam.h"
+#include "sss/medium/photon_profile.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace sss {
+namespace {
+
+/// The true decay length of diffusion against Grosjean's: kappa of alpha' = kappa/atanh(kappa).
+double asymptoticDecay(double reducedAbsorption) {
+    double lo = 0, hi = 1;
+    for (int i = 0; i < 60; ++i) {
+        const double kappa = 0.5 * (lo + hi);
+        // 1 - kappa/atanh(kappa), by its series where that would cancel
+        const double k2 = kappa * kappa;
+        const double absorbed = kappa < 1e-3 ? k2 / 3 * (1 + k2 * 4 / 15)
+                                             : 1 - kappa / std::atanh(kappa);
+        (absorbed < reducedAbsorption ? lo : hi) = kappa;
+    }
+    return lo;
+}
+
+/// exp of the log ratios between rings, by Catmull-Rom cubics in log r; constant below the first
+/// ring, and with the true decay instead of the beam's beyond the last.
+class RatioCurve {
+public:
+    RatioCurve(const PhotonProfile& profile, double excessDecay)
+        : profile_(profile), excessDecay_(excessDecay), perLog_(1 / std::log(profile.stepRatio)) {}
+
+    double operator()(double r) const {
+        const auto& y = profile_.logRatios;
+        const auto last = static_cast<double>(y.size() - 1);
+        const double x = std::log(r / profile_.firstRadius) * perLog_;
+        if (x <= 0) return std::exp(y.front());
+        if (x >= last) {
+            const double end = profile_.firstRadius * std::exp(last / perLog_);
+            return std::exp(y.back() - excessDecay_ * (r - end));
+        }
+        const auto i = static_cast<std::ptrdiff_t>(x);
+        const auto at = [&](std::ptrdiff_t k) {
+            return y[static_cast<std::size_t>(
+                std::clamp<std::ptrdiff_t>(k, 0, std::ssize(y) - 1))];
+        };
+        const double t = x - static_cast<double>(i);
+        const double a = at(i - 1), b = at(i), c = at(i + 1), d = at(i + 2);
+        const double cubic = b + 0.5 * t * (c - a + t * (2 * a - 5 * b + 4 * c - d +
+                                                         t * (3 * (b - c) + d - a)));
+        return std::exp(cubic);
+    }
+
+private:
+    const PhotonProfile& profile_;
+    double excessDecay_, perLog_;
+};
+
+}  // namespace
+
+Tabulated::Tabulated(const ChannelMedium& medium, const ProfileOptions& options)
+    : Profile(medium.meanFreePathMm()), sigmaTPrime_(medium.sigmaTPrime()) {
+    if (medium.sigmaS == 0) return;
+    PhotonProfileKey key;
+    key.reducedAbsorption = medium.reducedAbsorption();
+    key.g = medium.g;
+    key.eta = medium.eta;
+    key.illumination = options.tabulatedIllumination;
+    key.relativeError = options.tabulatedError;
+    const PhotonProfile simulated = loadOrSimulatePhotonProfile(
+        key, options.tabulatedCacheFolder.empty() ? defaultProfileCacheFolder()
+                                                  : options.tabulatedCacheFolder);
+    total_ = simulated.total;
+    totalError_ = simulated.totalError;
+
+    const double absorption = key.reducedAbsorption;
+    const ChannelMedium unit{absorption, (1 - absorption) / (1 - key.g), key.g, key.eta};
+    const PhotonBeam multiple(unit, PhotonBeam::Part::Multiple, {});
+    const PhotonBeam single(unit, PhotonBeam::Part::Single, {});
+    const double beamDecay = std::sqrt(3 * absorption / (1 + absorption));
+    const RatioCurve ratio(simulated, asymptoticDecay(absorption) - beamDecay);
+    table_.emplace(
+        [&](double r) {
+            return ratio(r) * (multiple.reflectance(r) + single.reflectance(r));
+        },
+        1.0, true);
+    quadrature_.emplace([this](double r) { return (*table_)(r); }, 1.0,
+                        4 / std::max(beamDecay, 1e-300));
+    correction_ = total_ / quadrature_->tail(0);
+}
+
+double Tabulated::reflectance(double rMm) const {
+    if (!(total_ > 0)) return 0;
+    if (rMm == 0) return std::numeric_limits<double>::infinity();
+    return correction_ * (*table_)(rMm * sigmaTPrime_) * sigmaTPrime_ * sigmaTPrime_;
+}
+
+double Tabulated::tail(double aMm) const {
+    return total_ > 0 ? correction_ * quadrature_->tail(aMm * sigmaTPrime_) : 0.0;
+}
+
+void Tabulated::reflectance(std::span<const float> rMm, std::span<float> out) const {
+    Profile::reflectance(rMm, out);
+}
+
+}  // namespace sss

@@ -1,0 +1,117 @@
+#include "sss/optics/microfacet.h"
+
+#include "sss/optics/fresnel.h"
+
+#include <algorithm>
+
+namespace sss {
+namespace {
+
+bool areAbove(const Vec3& wo, const Vec3& wi) { return wo.z > 0 && wi.z > 0; }
+
+Vec3 halfVector(const Vec3& wo, const Vec3& wi) { return glm::normalize(wo + wi); }
+
+/// Without its Fresnel factor; `h` receives the microfacet normal.
+ReflectionSample sampleLobe(const Ggx& ggx, const Vec3& wo, const Vec2& u, Vec3& h) {
+    ReflectionSample sample;
+    h = {0, 0, 1};
+    if (!(wo.z > 0)) return sample;
+    if (ggx.isSpecular()) return {{-wo.x, -wo.y, wo.z}, Rgb{1.0f}, 1.0f, true};
+    h = ggx.sampleVisibleNormal(wo, u);
+    sample.wi = glm::normalize(mirrored(wo, h));
+    if (!(sample.wi.z > 0)) return sample;
+    sample.pdf = ggx.reflectionPdf(wo, sample.wi);
+    // BRDF cos / pdf = G2 / G1(wo) [Heitz 2018, eq. 19].
+    sample.weight = Rgb{ggx.maskingShadowing(wo, sample.wi) / ggx.masking(wo)};
+    return sample;
+}
+
+}  // namespace
+
+float Ggx::lambda(const Vec3& w) const {
+    const float cos2 = w.z * w.z;
+    if (cos2 <= 0) return 0;
+    const float tan2 = (w.x * w.x + w.y * w.y) / cos2;
+    // (sqrt(1 + a) - 1) / 2 without its cancellation.
+    const float a = alpha_ * alpha_ * tan2;
+    return 0.5f * a / (1.0f + std::sqrt(1.0f + a));
+}
+
+float Ggx::normalDensity(const Vec3& h) const {
+    if (isSpecular() || !(h.z > 0)) return 0;
+    const float alpha2 = alpha_ * alpha_;
+    const float e = (h.x * h.x + h.y * h.y) / alpha2 + h.z * h.z;
+    return 1.0f / (kPiF * alpha2 * e * e);
+}
+
+Vec3 Ggx::sampleVisibleNormal(const Vec3& wo, const Vec2& u) const {
+    // Stretch so that the distribution is a hemisphere, seen from `view`.
+    const Vec3 view = glm::normalize(Vec3{alpha_ * wo.x, alpha_ * wo.y, wo.z});
+    const float length2 = view.x * view.x + view.y * view.y;
+    const Vec3 t1 = length2 > 0 ? Vec3{-view.y, view.x, 0} / std::sqrt(length2) : Vec3{1, 0, 0};
+    const Vec3 t2 = glm::cross(view, t1);
+
+    // A uniform point on the hemisphere's projection: half a disk and half a squeezed one.
+    const float radius = std::sqrt(u.x), angle = 2.0f * kPiF * u.y;
+    const float p1 = radius * std::cos(angle);
+    const float s = 0.5f * (1.0f + view.z);
+    const float p2 =
+        (1.0f - s) * std::sqrt(std::max(0.0f, 1.0f - p1 * p1)) + s * radius * std::sin(angle);
+
+    const Vec3 onHemisphere =
+        p1 * t1 + p2 * t2 + std::sqrt(std::max(0.0f, 1.0f - p1 * p1 - p2 * p2)) * view;
+    return glm::normalize(
+        Vec3{alpha_ * onHemisphere.x, alpha_ * onHemisphere.y, std::max(0.0f, onHemisphere.z)});
+}
+
+float Ggx::visibleNormalPdf(const Vec3& wo, const Vec3& h) const {
+    if (!(wo.z > 0)) return 0;
+    return masking(wo) * std::max(0.0f, glm::dot(wo, h)) * normalDensity(h) / wo.z;
+}
+
+float Ggx::reflectionPdf(const Vec3& wo, const Vec3& wi) const {
+    if (isSpecular() || !areAbove(wo, wi)) return 0;
+    // The Jacobian 1 / (4 wo.h) cancels the cosine of the visible normals' density.
+    return 0.25f * masking(wo) * normalDensity(halfVector(wo, wi)) / wo.z;
+}
+
+float Ggx::reflection(const Vec3& wo, const Vec3& wi) const {
+    if (isSpecular() || !areAbove(wo, wi)) return 0;
+    return normalDensity(halfVector(wo, wi)) * maskingShadowing(wo, wi) / (4.0f * wo.z * wi.z);
+}
+
+Rgb conductorFresnel(float cosine, const ConductorIndex& index) {
+    return {conductorReflectance(cosine, index.eta.x, index.k.x),
+            conductorReflectance(cosine, index.eta.y, index.k.y),
+            conductorReflectance(cosine, index.eta.z, index.k.z)};
+}
+
+Rgb conductorReflection(const Ggx& ggx, const Vec3& wo, const Vec3& wi,
+                        const ConductorIndex& index) {
+    const float lobe = ggx.reflection(wo, wi);
+    if (lobe == 0) return Rgb{0.0f};
+    return lobe * conductorFresnel(glm::dot(wi, halfVector(wo, wi)), index);
+}
+
+float dielectricReflection(const Ggx& ggx, const Vec3& wo, const Vec3& wi, float eta) {
+    const float lobe = ggx.reflection(wo, wi);
+    return lobe == 0 ? 0 : lobe * fresnelReflectance(glm::dot(wi, halfVector(wo, wi)), eta);
+}
+
+ReflectionSample sampleConductor(const Ggx& ggx, const Vec3& wo, const Vec2& u,
+                                 const ConductorIndex& index) {
+    Vec3 h;
+    ReflectionSample sample = sampleLobe(ggx, wo, u, h);
+    if (sample.pdf > 0) sample.weight *= conductorFresnel(glm::dot(wo, h), index);
+    return sample;
+}
+
+ReflectionSample sampleDielectricReflection(const Ggx& ggx, const Vec3& wo, const Vec2& u,
+                                            float eta) {
+    Vec3 h;
+    ReflectionSample sample = sampleLobe(ggx, wo, u, h);
+    if (sample.pdf > 0) sample.weight *= fresnelReflectance(glm::dot(wo, h), eta);
+    return sample;
+}
+
+}  // namespace sss

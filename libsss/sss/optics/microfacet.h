@@ -1,0 +1,76 @@
+#pragma once
+#include "sss/base/vec.h"
+
+namespace sss {
+
+// Rough boundaries after Cook and Torrance. Everything is in the local frame, z = the macroscopic
+// normal; `wo` and `wi` are unit vectors away from the surface, on the side z > 0 (elsewhere values
+// and densities are 0). Values are BRDFs in sr^-1, without the cosine.
+
+/// The isotropic GGX (Trowbridge-Reitz) distribution with Smith's masking [Walter et al. 2007;
+/// Heitz 2014, "Understanding the Masking-Shadowing Function"].
+class Ggx {
+public:
+    /// `roughness` in [0, 1]; alpha = roughness^2.
+    explicit Ggx(float roughness) : alpha_(roughness * roughness) {}
+
+    float alpha() const { return alpha_; }
+    /// So smooth that it is a mirror: every value and density below is 0, and the caller reflects.
+    bool isSpecular() const { return alpha_ < 1e-4f; }
+
+    /// Density of microfacet normals, per area and solid angle: the integral of D cos is 1.
+    float normalDensity(const Vec3& h) const;
+    /// Smith's masking of one direction, in (0, 1].
+    float masking(const Vec3& w) const { return 1.0f / (1.0f + lambda(w)); }
+    /// Height-correlated masking and shadowing [Heitz 2014, eq. 99].
+    float maskingShadowing(const Vec3& wo, const Vec3& wi) const {
+        return 1.0f / (1.0f + lambda(wo) + lambda(wi));
+    }
+    /// A microfacet normal among those visible from `wo` [Heitz 2018, "Sampling the GGX
+    /// Distribution of Visible Normals"].
+    Vec3 sampleVisibleNormal(const Vec3& wo, const Vec2& u) const;
+    /// Its density in solid angle (sr^-1).
+    float visibleNormalPdf(const Vec3& wo, const Vec3& h) const;
+
+    /// Density (sr^-1) of `wi` when `wo` is reflected by a sampled visible normal. It integrates to
+    /// less than 1 over the hemisphere: the rest goes below the surface, and is lost.
+    float reflectionPdf(const Vec3& wo, const Vec3& wi) const;
+    /// The reflection lobe with a Fresnel factor of 1: D G2 / (4 cos cos).
+    float reflection(const Vec3& wo, const Vec3& wi) const;
+
+private:
+    float lambda(const Vec3& w) const;
+    float alpha_;
+};
+
+/// `wo` mirrored about `h`.
+inline Vec3 mirrored(const Vec3& wo, const Vec3& h) { return 2.0f * glm::dot(wo, h) * h - wo; }
+
+/// Complex index of refraction eta + i k of a conductor, per channel.
+struct ConductorIndex {
+    Rgb eta{0.2f, 0.92f, 1.1f};
+    Rgb k{3.9f, 2.45f, 2.14f};
+};
+
+/// Fresnel reflectance of a conductor, per channel.
+Rgb conductorFresnel(float cosine, const ConductorIndex& index);
+
+/// Rough conductor; 0 if specular.
+Rgb conductorReflection(const Ggx& ggx, const Vec3& wo, const Vec3& wi,
+                        const ConductorIndex& index);
+/// Reflection off a rough dielectric seen from outside, eta = inside / outside; 0 if specular.
+float dielectricReflection(const Ggx& ggx, const Vec3& wo, const Vec3& wi, float eta);
+
+/// A reflected direction. A specular surface gives the mirror direction with pdf 1 and isDelta.
+struct ReflectionSample {
+    Vec3 wi{0.0f};
+    Rgb weight{0.0f};      ///< BRDF cos / pdf, Fresnel included; at most 1
+    float pdf = 0;         ///< sr^-1; 0 = nothing is reflected this way
+    bool isDelta = false;  ///< no other technique can find this direction
+};
+ReflectionSample sampleConductor(const Ggx& ggx, const Vec3& wo, const Vec2& u,
+                                 const ConductorIndex& index);
+ReflectionSample sampleDielectricReflection(const Ggx& ggx, const Vec3& wo, const Vec2& u,
+                                            float eta);
+
+}  // namespace sss

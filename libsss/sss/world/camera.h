@@ -1,0 +1,32 @@
+#pragma once
+#include "sss/base/vec.h"
+#include "sss/geom/ray_scene.h"
+#include "sss/scene/scene.h"
+
+#include <array>
+
+namespace sss {
+
+/// Perspective camera with a thin lens, in the world's space.
+class Camera {
+public:
+    /// The field of view is vertical; `originMm` is subtracted from positions.
+    Camera(const CameraSettings& settings, int width, int height, const DVec3& originMm);
+
+    /// Ray through `pixel` (0, 0 = the top left corner of the film), from `lens` in [0, 1)^2.
+    Ray ray(const Vec2& pixel, const Vec2& lens) const;
+    const Vec3& forward() const { return forward_; }
+    /// OpenEXR's worldToCamera and worldToNDC, in scene millimetres (not recentred), row vectors.
+    std::array<double, 16> worldToCamera() const;
+    std::array<double, 16> worldToNdc() const;
+
+private:
+    DVec3 positionMm_;  // as in the scene
+    Vec3 position_;     // recentred
+    Vec3 right_, up_, forward_;
+    double tanHalfFov_;
+    int width_, height_;
+    float apertureRadius_, focusDistance_;
+};
+
+}  // namespace sss

@@ -1,0 +1,110 @@
+#include "sss/world/object_loader.h"
+
+#include "sss/base/error.h"
+#include "sss/geom/mesh_io.h"
+#include "sss/geom/mesh_repair.h"
+#include "sss/geom/mesh_report.h"
+#include "sss/geom/normals.h"
+#include "sss/geom/shapes.h"
+
+#include <fmt/core.h>
+
+#include <cmath>
+
+namespace sss {
+namespace {
+
+constexpr double kCreaseDegrees = 40;
+
+// One overload a shape; mesh files are the only ones with something to report.
+struct ShapeMaker {
+    double mmPerUnit;
+    MeshReport& report;
+
+    TriangleMesh operator()(const MeshFileShape& shape) const {
+        MeshFile file = readMesh(shape.path);
+        report = file.report;
+        for (DVec3& p : file.mesh.positions) p *= mmPerUnit;
+        return std::move(file.mesh);
+    }
+    TriangleMesh operator()(const SphereShape& s) const { return makeSphere(s.radiusMm); }
+    TriangleMesh operator()(const RectangleShape& s) const {
+        return makeRectangle(s.widthMm, s.heightMm);
+    }
+    TriangleMesh operator()(const DiskShape& s) const { return makeDisk(s.radiusMm); }
+    TriangleMesh operator()(const BoxShape& s) const { return makeBox(s.sizeMm); }
+    TriangleMesh operator()(const CylinderShape& s) const {
+        return makeCylinder(s.radiusMm, s.heightMm);
+    }
+};
+
+DVec3 transformed(const DMat4& m, const DVec3& p) { return DVec3(m * glm::dvec4(p, 1.0)); }
+
+DMat4 fitted(const FitStep& fit, const DMat4& before, const TriangleMesh& mesh,
+             const std::string& name) {
+    DBounds box;
+    for (const DVec3& p : mesh.positions) box.add(transformed(before, p));
+    if (!(box.size().y > 0))
+        throw Error(ErrorKind::BadInput, name, "cannot be fitted to a height: it is flat in y",
+                    "rotate it before the fit, or use a scale");
+    const double scale = fit.heightMm / box.size().y;
+    DMat4 m = glm::translate(DMat4(1.0), fit.centre);
+    m = glm::scale(m, DVec3(scale));
+    return glm::translate(m, -box.centre());
+}
+
+DMat4 resolveTransform(const ObjectSettings& object, const TriangleMesh& mesh) {
+    DMat4 worldFromObject(1.0);
+    for (const TransformStep& step : object.transform) {
+        if (const auto* matrix = std::get_if<DMat4>(&step))
+            worldFromObject = *matrix * worldFromObject;
+        else
+            worldFromObject =
+                fitted(std::get<FitStep>(step), worldFromObject, mesh, object.name) * worldFromObject;
+    }
+    return worldFromObject;
+}
+
+void chooseNormals(TriangleMesh& mesh, NormalsMode mode) {
+    switch (mode) {
+        case NormalsMode::Flat:
+            mesh.normals.clear();
+            break;
+        case NormalsMode::Smooth:
+            mesh.normals = angleWeightedNormals(mesh);
+            break;
+        case NormalsMode::Auto:
+            if (mesh.normals.empty()) mesh = withCreases(mesh, kCreaseDegrees);
+            break;
+    }
+}
+
+}  // namespace
+
+LoadedObject loadObject(const ObjectSettings& object, const Scene& scene, Reporter& reporter) {
+    const double mmPerUnit = scene.metersPerUnit * 1000.0;
+    LoadedObject loaded;
+    MeshReport report;
+    loaded.mesh = std::visit(ShapeMaker{mmPerUnit, report}, object.shape);
+    const std::size_t facesRead = loaded.mesh.faceCount();
+    // Reported in the mesh's own unit, before repair: what the user has to mend.
+    for (const std::string& sentence : describe(report, mmPerUnit))
+        reporter.warn("mesh", object.name + ": " + sentence);
+    const RemovedParts removed = removeUnusable(loaded.mesh);
+    if (loaded.mesh.faces.empty())
+        throw Error(ErrorKind::BadInput, object.name,
+                    fmt::format("none of its {} faces has an area", facesRead),
+                    "check the mesh and its scale");
+    if (removed.degenerateFaces + removed.duplicateFaces > 0)
+        reporter.info("mesh", fmt::format("{}: removed {} faces without area and {} duplicates",
+                                          object.name, removed.degenerateFaces,
+                                          removed.duplicateFaces));
+    repairWinding(loaded.mesh);
+    chooseNormals(loaded.mesh, object.normals);
+    const MeshReport after = inspectMesh(loaded.mesh);
+    loaded.closed = after.closed;
+    loaded.worldFromObject = resolveTransform(object, loaded.mesh);
+    return loaded;
+}
+
+}  // namespace sss

@@ -1,0 +1,174 @@
+#include "sss/world/world.h"
+
+#include "sss/base/error.h"
+#include "sss/light/light_table.h"
+#include "sss/medium/measured_media.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <map>
+
+namespace sss {
+
+std::uint32_t bodyMask(int body) { return 2u << (body % 31); }
+
+World::World(const Scene& scene, Reporter& reporter) : scene_(scene) {
+    std::vector<LoadedObject> loaded;
+    for (const ObjectSettings& object : scene_.objects)
+        loaded.push_back(loadObject(object, scene_, reporter));
+    chooseOrigin(loaded);
+    makeBodies(loaded, reporter);
+    makeParts(loaded);
+    makeLights();
+    camera_.emplace(scene_.camera, scene_.film.width, scene_.film.height, originMm_);
+}
+
+const TranslucentMaterial& World::materialOf(const Body& body) const {
+    return std::get<TranslucentMaterial>(material(body.material));
+}
+
+// The middle of what is translucent, or else of everything.
+void World::chooseOrigin(const std::vector<LoadedObject>& loaded) {
+    DBounds translucent, all;
+    for (std::size_t k = 0; k < loaded.size(); ++k) {
+        DBounds box;
+        for (const DVec3& p : loaded[k].mesh.positions)
+            box.add(DVec3(loaded[k].worldFromObject * glm::dvec4(p, 1.0)));
+        all.add(box);
+        if (std::holds_alternative<TranslucentMaterial>(material(scene_.objects[k].material)))
+            translucent.add(box);
+    }
+    originMm_ = (translucent.isEmpty() ? all : translucent).centre();
+}
+
+void World::makeBodies(const std::vector<LoadedObject>& loaded, Reporter& reporter) {
+    std::vector<std::vector<int>> members;
+    std::map<std::string, std::size_t> groups;
+    for (int k = 0; k < static_cast<int>(loaded.size()); ++k) {
+        const ObjectSettings& object = scene_.objects[static_cast<std::size_t>(k)];
+        if (!std::holds_alternative<TranslucentMaterial>(material(object.material))) continue;
+        if (object.group.empty()) {
+            members.push_back({k});
+            continue;
+        }
+        const auto [place, isNew] = groups.try_emplace(object.group, members.size());
+        if (isNew) members.emplace_back();
+        members[place->second].push_back(k);
+    }
+    for (const std::vector<int>& group : members) {
+        const ObjectSettings& first = scene_.objects[static_cast<std::size_t>(group.front())];
+        for (const int k : group) {
+            const ObjectSettings& object = scene_.objects[static_cast<std::size_t>(k)];
+            if (object.material != first.material)
+                throw Error(ErrorKind::BadInput,
+                            fmt::format("{}:{}:{}", scene_.file.string(), object.line, object.column),
+                            fmt::format("object \"{}\" is in group \"{}\" with \"{}\" but has another "
+                                        "material", object.name, object.group, first.name),
+                            "a group is one body: give its objects one material, or split the group");
+        }
+        bodies_.push_back(joinBody(first.group.empty() ? first.name : first.group, group, loaded,
+                                   scene_, originMm_));
+        describeBody(bodies_.back(), reporter);
+    }
+}
+
+void World::describeBody(const Body& body, Reporter& reporter) const {
+    const TranslucentMaterial& translucent = materialOf(body);
+    const DVec3 size = body.mesh.bounds().size();
+    const DRgb mfp = translucent.medium.meanFreePathMm();
+    reporter.info("scene",
+                  fmt::format("{}: {} triangles, {:.4g} x {:.4g} x {:.4g} mm, area {:.5g} mm2; mean "
+                              "free path {:.4g} {:.4g} {:.4g} mm",
+                              body.name, body.mesh.faceCount(), size.x, size.y, size.z,
+                              body.mesh.area(), mfp.x, mfp.y, mfp.z));
+    for (const std::string& sentence : diffusionWarnings(translucent.medium, minComponent(size)))
+        reporter.warn("medium", body.name + ": " + sentence);
+    if (!body.closed)
+        reporter.warn("mesh", fmt::format("{}: the surface is not closed: diffusion holds, but single "
+                                          "scattering has no inside there; close it, or set "
+                                          "\"singleScattering\": false", body.name));
+}
+
+void World::makeParts(const std::vector<LoadedObject>& loaded) {
+    parts_.resize(loaded.size());
+    std::vector<RayScene::Geometry> geometries(loaded.size());
+    for (std::size_t k = 0; k < loaded.size(); ++k) {
+        const DMat4& m = loaded[k].worldFromObject;
+        TriangleMesh mesh =
+            transformedMesh(loaded[k].mesh, DMat3(m), DVec3(m[3]) - originMm_);
+        Part& part = parts_[k];
+        for (const DVec3& p : mesh.positions) {
+            part.positions.push_back(Vec3(p));
+            bounds_.add(part.positions.back());
+        }
+        part.normals = std::move(mesh.normals);
+        part.faces = std::move(mesh.faces);
+    }
+    for (int b = 0; b < static_cast<int>(bodies_.size()); ++b) {
+        const Body& body = bodies_[static_cast<std::size_t>(b)];
+        for (std::size_t k = 0; k < body.objects.size(); ++k) {
+            Part& part = parts_[static_cast<std::size_t>(body.objects[k])];
+            part.body = b;
+            part.firstBodyFace = body.firstFace[k];
+        }
+    }
+    for (std::size_t k = 0; k < parts_.size(); ++k)
+        geometries[k] = {parts_[k].positions, parts_[k].faces,
+                         parts_[k].body >= 0 ? bodyMask(parts_[k].body) : 1u};
+    rays_.emplace(geometries);
+}
+
+void World::makeLights() {
+    for (const LightSettings& settings : scene_.lights)
+        lights_.push_back(makeLight(settings, originMm_));
+    emitters_.assign(scene_.objects.size(), nullptr);
+    emitterIndices_.assign(scene_.objects.size(), 0);
+    for (std::size_t k = 0; k < scene_.objects.size(); ++k) {
+        const auto* emitter = std::get_if<EmitterMaterial>(&material(scene_.objects[k].material));
+        if (!emitter) continue;
+        std::vector<MeshLight::Triangle> triangles;
+        for (const UVec3& f : parts_[k].faces)
+            triangles.push_back({parts_[k].positions[f.x], parts_[k].positions[f.y],
+                                 parts_[k].positions[f.z]});
+        auto light = std::make_unique<MeshLight>(
+            std::move(triangles), MeshLight::Emission{emitter->radiance, emitter->twoSided});
+        emitters_[k] = light.get();
+        emitterIndices_[k] = lights_.size();
+        lights_.push_back(std::move(light));
+    }
+    Bounds target;
+    for (const Body& body : bodies_)
+        for (const int object : body.objects)
+            for (const Vec3& p : parts_[static_cast<std::size_t>(object)].positions) target.add(p);
+    picker_.emplace(lights_, target.isEmpty() ? bounds_ : target);
+}
+
+SurfaceHit World::surfaceAt(const Hit& hit) const {
+    const Part& part = parts_[hit.geometry];
+    SurfaceHit surface;
+    // From the corners, not along the ray: on the surface to the last bit, however far the camera.
+    const UVec3 v = part.faces[hit.face];
+    surface.position = part.positions[v.x] * (1.0f - hit.u - hit.v) + part.positions[v.y] * hit.u +
+                       part.positions[v.z] * hit.v;
+    surface.geometricNormal = hit.normal;
+    surface.shadingNormal = hit.normal;
+    surface.distance = hit.t;
+    surface.object = static_cast<int>(hit.geometry);
+    surface.material = scene_.objects[hit.geometry].material;
+    surface.body = part.body;
+    surface.face = hit.face;
+    surface.bodyFace = part.firstBodyFace + hit.face;
+    surface.barycentrics = {hit.u, hit.v};
+    if (!part.normals.empty()) {
+        const Vec3 n = part.normals[v.x] * (1.0f - hit.u - hit.v) + part.normals[v.y] * hit.u +
+                       part.normals[v.z] * hit.v;
+        const float length = glm::length(n);
+        if (length > 1e-6f) surface.shadingNormal = n / length;
+        if (glm::dot(surface.shadingNormal, hit.normal) < 0)
+            surface.shadingNormal = -surface.shadingNormal;
+    }
+    return surface;
+}
+
+}  // namespace sss

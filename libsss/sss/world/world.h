@@ -1,0 +1,91 @@
+#pragma once
+#include "sss/base/reporter.h"
+#include "sss/geom/ray_scene.h"
+#include "sss/light/light.h"
+#include "sss/light/light_picker.h"
+#include "sss/light/mesh_light.h"
+#include "sss/scene/scene.h"
+#include "sss/world/body.h"
+#include "sss/world/camera.h"
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace sss {
+
+/// A place on a surface that a ray has hit, in the world's space.
+struct SurfaceHit {
+    Vec3 position{};
+    Vec3 geometricNormal{};  ///< unit, by the winding: outward on closed surfaces
+    Vec3 shadingNormal{};    ///< unit, interpolated, on the same side as geometricNormal
+    float distance = 0;      ///< along the ray, mm
+    int object = -1;         ///< index into Scene::objects
+    int material = -1;       ///< index into Scene::materials
+    int body = -1;           ///< index into World::bodies; -1 if not translucent
+    FaceIndex bodyFace = 0;  ///< in Body::mesh
+    FaceIndex face = 0;      ///< in the object's own mesh
+    Vec2 barycentrics{};
+};
+
+/// Ray mask of a body; opaque geometry has bit 0, bodies share the other 31 in turn.
+std::uint32_t bodyMask(int body);
+
+/// A scene made ready for light transport: everything opened, placed and checked. Its space is the
+/// scene's, in mm, moved by -originMm so that bodies far from the origin keep their digits. Const
+/// and thread-safe once built.
+class World {
+public:
+    /// Opens meshes and environment maps; reports sizes and mean free paths in mm, and whatever is
+    /// wrong with the meshes or lies beyond diffusion. Throws Error.
+    World(const Scene& scene, Reporter& reporter);
+
+    const Scene& scene() const { return scene_; }
+    const DVec3& originMm() const { return originMm_; }
+    const Camera& camera() const { return *camera_; }
+    const RayScene& rays() const { return *rays_; }
+    const std::vector<Body>& bodies() const { return bodies_; }
+    const TranslucentMaterial& materialOf(const Body& body) const;
+    const Material& material(int index) const {
+        return scene_.materials[static_cast<std::size_t>(index)].material;
+    }
+    const std::vector<std::unique_ptr<Light>>& lights() const { return lights_; }
+    const LightPicker& picker() const { return *picker_; }
+    /// The light that an object's faces are, if they are an emitter.
+    const MeshLight* emitter(int object) const { return emitters_[static_cast<std::size_t>(object)]; }
+    /// Its index among lights().
+    std::size_t emitterIndex(int object) const {
+        return emitterIndices_[static_cast<std::size_t>(object)];
+    }
+    const Bounds& bounds() const { return bounds_; }
+
+    /// What stands where a ray hit.
+    SurfaceHit surfaceAt(const Hit& hit) const;
+
+private:
+    struct Part {  // one geometry of the ray scene: one object
+        std::vector<Vec3> positions, normals;
+        std::vector<UVec3> faces;
+        int body = -1;
+        FaceIndex firstBodyFace = 0;
+    };
+    void chooseOrigin(const std::vector<LoadedObject>& loaded);
+    void makeBodies(const std::vector<LoadedObject>& loaded, Reporter& reporter);
+    void makeParts(const std::vector<LoadedObject>& loaded);
+    void makeLights();
+    void describeBody(const Body& body, Reporter& reporter) const;
+
+    Scene scene_;
+    DVec3 originMm_{0};
+    std::vector<Body> bodies_;
+    std::vector<Part> parts_;  // by object
+    std::optional<RayScene> rays_;
+    std::vector<std::unique_ptr<Light>> lights_;
+    std::vector<const MeshLight*> emitters_;   // by object
+    std::vector<std::size_t> emitterIndices_;  // by object
+    std::optional<LightPicker> picker_;
+    std::optional<Camera> camera_;
+    Bounds bounds_;
+};
+
+}  // namespace sss

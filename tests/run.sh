@@ -1,0 +1,64 @@
+#!/usr/bin/env bash
+# Every test of the project. Installs what is missing, builds what has changed, runs:
+#   release build and all its tests; the same under the address and undefined-behaviour sanitizers;
+#   the parallel parts under the thread sanitizer; clang-format; clang-tidy.
+# --quick leaves out all but the first. Exit code 0 only if everything passed.
+set -uo pipefail
+source "$(dirname -- "${BASH_SOURCE[0]}")/../scenes/setup.sh"
+
+case ${1-} in
+    '') quick=false ;;
+    --quick) quick=true ;;
+    *)
+        echo "usage: tests/run.sh [--quick]" >&2
+        exit 2
+        ;;
+esac
+
+summary=() failed=0
+
+# step NAME COMMAND...: runs a step, notes its seconds and whether it passed.
+step() {
+    local name=$1 began=$SECONDS verdict=passed
+    shift
+    echo "== $name"
+    "$@" || { verdict=FAILED failed=1; }
+    summary+=("$(printf '%-24s %-7s %5d s' "$name" "$verdict" $((SECONDS - began)))")
+}
+
+# Prints ctest's last lines; when it fails, also all that is not about a test that passed.
+run_ctest() {
+    local preset=$1 log=$SSS_ROOT/build/$1-tests.log
+    shift
+    if (cd "$SSS_ROOT" && ctest --preset "$preset" -j "$(nproc)" "$@") </dev/null >"$log" 2>&1; then
+        tail -n 15 "$log"
+    else
+        grep -vE '^ *Start |\.+ +Passed +[0-9.]+ sec$' "$log"
+        return 1
+    fi
+}
+
+build_and_test() {
+    sss_build "$1" && run_ctest "$@"
+}
+
+check_format() {
+    (cd "$SSS_ROOT" && find libsss preprocess render tests -name '*.h' -o -name '*.cpp' |
+        sort | xargs clang-format --dry-run --Werror)
+}
+
+export TSAN_OPTIONS="suppressions=$SSS_ROOT/tests/tsan.supp ${TSAN_OPTIONS-}"
+
+sss_install "${SSS_PACKAGES[@]}" "${SSS_TEST_PACKAGES[@]}" || exit 1
+step "release" build_and_test release
+if ! $quick; then
+    step "clang-format" check_format
+    step "clang-tidy" /usr/bin/python3 "$SSS_ROOT/tests/tidy.py" "$SSS_ROOT" "$SSS_ROOT/build/release"
+    step "address sanitizer" build_and_test asan
+    step "thread sanitizer" build_and_test tsan
+fi
+
+echo "== summary"
+printf '%s\n' "${summary[@]}"
+printf '%-24s %-7s %5d s\n' "all" "$( ((failed)) && echo FAILED || echo passed)" "$SECONDS"
+exit "$failed"

@@ -1,0 +1,169 @@
+#include "sss/base/atomic_file.h"
+
+#include "sss/base/error.h"
+#include "support/temporary_folder.h"
+
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <csignal>
+#include <memory>
+#include <thread>
+#include <vector>
+
+namespace sss {
+namespace {
+
+using testing::readFile;
+using testing::TemporaryFolder;
+using testing::writeFile;
+
+std::string ioMessage(const std::filesystem::path& target) {
+    try {
+        AtomicFile(target).commit();
+    } catch (const Error& error) {
+        EXPECT_EQ(error.kind(), ErrorKind::Io);
+        return error.what();
+    }
+    ADD_FAILURE() << target << " was written";
+    return {};
+}
+
+TEST(AtomicFile, AppearsOnlyOnCommit) {
+    const TemporaryFolder folder;
+    AtomicFile file(folder / "out");
+    file.append("hello ");
+    file.append("world");
+    EXPECT_FALSE(std::filesystem::exists(folder / "out"));
+    EXPECT_TRUE(std::filesystem::exists(file.temporaryPath()));
+    file.commit();
+    EXPECT_EQ(readFile(folder / "out"), "hello world");
+    EXPECT_EQ(folder.fileCount(), 1u);
+}
+
+TEST(AtomicFile, DroppedLeavesTheOldFile) {
+    const TemporaryFolder folder;
+    writeFile(folder / "out", "old");
+    { AtomicFile(folder / "out").append("new"); }
+    EXPECT_EQ(readFile(folder / "out"), "old");
+    EXPECT_EQ(folder.fileCount(), 1u);
+}
+
+TEST(AtomicFile, OverwriteReplacesBytesInPlace) {
+    const TemporaryFolder folder;
+    AtomicFile file(folder / "out");
+    file.append("____world");
+    file.overwrite(1, std::as_bytes(std::span("abc", 3)));
+    file.append("!");
+    file.commit();
+    EXPECT_EQ(readFile(folder / "out"), "_abcworld!");
+}
+
+TEST(AtomicFile, ASymbolicLinkKeepsPointing) {
+    const TemporaryFolder folder;
+    writeFile(folder / "real", "old");
+    std::filesystem::create_symlink(folder / "real", folder / "link");
+    AtomicFile file(folder / "link");
+    file.append("new");
+    file.commit();
+    EXPECT_TRUE(std::filesystem::is_symlink(folder / "link"));
+    EXPECT_EQ(readFile(folder / "real"), "new");
+}
+
+TEST(AtomicFile, RefusalsNameThePathAndTheReason) {
+    const TemporaryFolder folder;
+    EXPECT_NE(ioMessage(folder.path()).find("Is a directory"), std::string::npos);
+    EXPECT_NE(ioMessage("/dev/null").find("not a regular file"), std::string::npos);
+    const std::string missing = ioMessage(folder / "none/out");
+    EXPECT_NE(missing.find("No such file"), std::string::npos);
+    EXPECT_NE(missing.find("none/out"), std::string::npos);
+    writeFile(folder / "file", "");
+    EXPECT_NE(ioMessage(folder / "file/out").find("Not a directory"), std::string::npos);
+    EXPECT_THROW(requireWritable(folder / "none/out"), Error);
+}
+
+TEST(AtomicFile, RequireWritableTouchesNothing) {
+    const TemporaryFolder folder;
+    writeFile(folder / "out", "old");
+    requireWritable(folder / "out");
+    requireWritable(folder / "new");
+    EXPECT_EQ(readFile(folder / "out"), "old");
+    EXPECT_EQ(folder.fileCount(), 1u);
+}
+
+TEST(AtomicFile, ALeftoverTemporaryOfADeadProcessIsInNobodysWay) {
+    const TemporaryFolder folder;
+    std::string next;
+    {
+        const AtomicFile probe(folder / "out");
+        const std::string used = probe.temporaryPath().string();
+        const std::size_t dash = used.rfind('-');
+        next = used.substr(0, dash + 1) + std::to_string(std::stoul(used.substr(dash + 1)) + 1);
+    }
+    writeFile(next, "leftover");
+    AtomicFile file(folder / "out");
+    file.append("new");
+    file.commit();
+    EXPECT_EQ(readFile(folder / "out"), "new");
+    EXPECT_EQ(readFile(next), "leftover");
+}
+
+TEST(AtomicFile, AFullDiskLeavesTheOldFile) {
+    const TemporaryFolder folder;
+    writeFile(folder / "out", "old");
+    rlimit before{};
+    ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &before), 0);
+    const auto oldHandler = std::signal(SIGXFSZ, SIG_IGN);
+    rlimit tiny = before;
+    tiny.rlim_cur = 100;
+    ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &tiny), 0);
+    std::string message;
+    try {
+        AtomicFile file(folder / "out");
+        file.append(std::string(1000, 'x'));
+        file.commit();
+    } catch (const Error& error) {
+        message = error.what();
+    }
+    setrlimit(RLIMIT_FSIZE, &before);
+    std::signal(SIGXFSZ, oldHandler);
+    EXPECT_NE(message.find("File too large"), std::string::npos) << message;
+    EXPECT_EQ(readFile(folder / "out"), "old");
+    EXPECT_EQ(folder.fileCount(), 1u);
+}
+
+TEST(AtomicFile, ManyWritersOfOneNameLeaveOneOfThem) {
+    const TemporaryFolder folder;
+    std::vector<std::thread> threads;
+    for (int i = 0; i < 8; ++i)
+        threads.emplace_back([&folder, i] {
+            for (int k = 0; k < 20; ++k) {
+                AtomicFile file(folder / "out");
+                file.append(std::string(10'000, static_cast<char>('a' + i)));
+                file.commit();
+            }
+        });
+    for (std::thread& thread : threads) thread.join();
+    const std::string text = readFile(folder / "out");
+    EXPECT_EQ(text.size(), 10'000u);
+    EXPECT_TRUE(std::all_of(text.begin(), text.end(), [&](char c) { return c == text[0]; }));
+    EXPECT_EQ(folder.fileCount(), 1u);
+}
+
+TEST(AtomicFile, RemoveTemporaryFilesFindsAllThatAreAlive) {
+    const TemporaryFolder folder;
+    writeFile(folder / "committed", "old");
+    std::vector<std::unique_ptr<AtomicFile>> files;
+    for (int i = 0; i < 20; ++i)
+        files.push_back(std::make_unique<AtomicFile>(folder / std::to_string(i).c_str()));
+    files[3]->commit();
+    files[4].reset();
+    EXPECT_EQ(folder.fileCount(), 20u);
+    removeTemporaryFiles();
+    EXPECT_EQ(folder.fileCount(), 2u);
+    EXPECT_TRUE(std::filesystem::exists(folder / "3"));
+}
+
+}  // namespace
+}  // namespace sss

@@ -1,0 +1,58 @@
+#include "sss/image/png_file.h"
+
+#include "sss/base/error.h"
+#include "sss/base/rng.h"
+#include "support/temporary_folder.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+namespace sss {
+namespace {
+
+class PngFile : public ::testing::Test {
+protected:
+    testing::TemporaryFolder folder_;
+};
+
+Picture8 noise(int channels) {
+    Picture8 picture{13, 7, channels, {}};
+    picture.values.resize(static_cast<std::size_t>(13 * 7 * channels));
+    Rng rng(5);
+    for (std::uint8_t& value : picture.values) value = static_cast<std::uint8_t>(rng.next32());
+    return picture;
+}
+
+TEST_F(PngFile, ComesBackExactly) {
+    for (const int channels : {3, 4}) {
+        const Picture8 picture = noise(channels);
+        writePng(folder_ / "a.png", picture);
+        const Picture8 back = readPng(folder_ / "a.png");
+        EXPECT_EQ(back.width, 13);
+        EXPECT_EQ(back.height, 7);
+        EXPECT_EQ(back.channels, channels);
+        EXPECT_EQ(back.values, picture.values);
+    }
+}
+
+TEST_F(PngFile, FailureLeavesNothing) {
+    EXPECT_THROW(writePng(folder_.path() / "none" / "a.png", noise(3)), Error);
+    Picture8 wrong = noise(3);
+    wrong.values.pop_back();
+    EXPECT_THROW(writePng(folder_ / "a.png", wrong), Error);
+    EXPECT_EQ(folder_.fileCount(), 0u);
+}
+
+TEST_F(PngFile, DamageIsAnError) {
+    EXPECT_THROW(readPng(folder_ / "none.png"), Error);
+    writePng(folder_ / "a.png", noise(3));
+    const std::string whole = testing::readFile(folder_ / "a.png");
+    for (const std::size_t size : {std::size_t{0}, std::size_t{9}, whole.size() / 2}) {
+        testing::writeFile(folder_ / "cut.png", whole.substr(0, size));
+        EXPECT_THROW(readPng(folder_ / "cut.png"), Error) << size;
+    }
+}
+
+}  // namespace
+}  // namespace sss
