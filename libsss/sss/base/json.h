@@ -18,6 +18,9 @@ struct JsonPlace {
 
 struct JsonMember;
 
+template <typename T>
+concept JsonNumber = (std::integral<T> && !std::same_as<T, bool>) || std::floating_point<T>;
+
 /// A JSON value that knows where it was read. Objects keep the order of their keys. Numbers are
 /// doubles; whole numbers are exact up to 2^53 (RFC 8259 section 6) and written without a point.
 class JsonValue {
@@ -27,9 +30,8 @@ public:
 
     JsonValue() = default;  ///< null
     JsonValue(bool value) : data_(value) {}
-    template <typename Number>
-    requires(std::integral<Number> || std::floating_point<Number>) &&
-        (!std::same_as<Number, bool>)JsonValue(Number value) : data_(static_cast<double>(value)) {}
+    template <JsonNumber Number>
+    JsonValue(Number value) : data_(static_cast<double>(value)) {}
     JsonValue(std::string value) : data_(std::move(value)) {}
     JsonValue(std::string_view value) : data_(std::string(value)) {}
     JsonValue(const char* value) : data_(std::string(value)) {}

@@ -2,6 +2,8 @@
 
 namespace sss {
 
+JsonValue JsonValue::array() { return array(Array()); }
+
 JsonValue JsonValue::array(Array items) {
     JsonValue value;
     value.data_ = std::move(items);

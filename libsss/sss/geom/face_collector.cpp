@@ -2,7 +2,6 @@
 
 #include "sss/base/error.h"
 #include "sss/geom/mesh_io.h"
-#include "sss/geom/normals.h"
 #include "sss/geom/polygon.h"
 
 #include <fmt/core.h>
@@ -20,30 +19,9 @@ void FaceCollector::setPosition(std::uint32_t vertex, const Vec3& position) {
     if (vertex < positions_.size()) positions_[vertex] = position;
 }
 
-void FaceCollector::setCornerNormal(std::uint32_t vertex, const Vec3& normal) {
-    pending_.push_back({vertex, Vec3(unitOrZero(DVec3(normal)))});
-}
-
 void FaceCollector::addFace(std::span<const std::uint32_t> corners) {
-    storeCornerNormals(corners);
     corners_.insert(corners_.end(), corners.begin(), corners.end());
     faceEnds_.push_back(corners_.size());
-}
-
-/// The normals come in the order of the corners. Matched from the back, so that those of a face
-/// which the reader gave up do not count for this one.
-void FaceCollector::storeCornerNormals(std::span<const std::uint32_t> corners) {
-    if (pending_.empty() && cornerNormals_.empty()) return;
-    cornerNormals_.resize(corners_.size() + corners.size(), Vec3{0});
-    std::size_t left = pending_.size();
-    for (std::size_t i = corners.size(); i-- > 0;) {
-        std::size_t at = left;
-        while (at > 0 && pending_[at - 1].vertex != corners[i]) --at;
-        if (at == 0) continue;
-        cornerNormals_[corners_.size() + i] = pending_[at - 1].normal;
-        left = at - 1;
-    }
-    pending_.clear();
 }
 
 void FaceCollector::checkRange(const std::string& where) const {
@@ -63,29 +41,34 @@ void FaceCollector::checkRange(const std::string& where) const {
                     "simplify the mesh");
 }
 
-bool FaceCollector::hasAllCornerNormals(ReaderReport& report) {
-    if (cornerNormals_.empty()) return false;
-    cornerNormals_.resize(corners_.size(), Vec3{0});
-    report.hasFileNormals = std::none_of(cornerNormals_.begin(), cornerNormals_.end(), isZero);
+void FaceCollector::takeNormals(SievedMesh& exact, TriangleMesh& mesh, ReaderReport& report) {
+    if (exact.normals.empty() && exact.cornerNormals.empty()) return;
+    const bool byVertex = !exact.normals.empty();
+    // Vertices that no face uses need no normal.
+    report.hasFileNormals =
+        byVertex ? std::none_of(corners_.begin(), corners_.end(),
+                                [&](std::uint32_t corner) { return isZero(exact.normals[corner]); })
+                 : std::none_of(exact.cornerNormals.begin(), exact.cornerNormals.end(), isZero);
     report.ignoredNormals = !report.hasFileNormals;
-    return report.hasFileNormals;
-}
-
-/// Vertices that no face uses need no normal.
-bool FaceCollector::coversAllCorners(const std::vector<Vec3>& vertexNormals) const {
-    return std::none_of(corners_.begin(), corners_.end(),
-                        [&](std::uint32_t corner) { return isZero(vertexNormals[corner]); });
+    if (report.ignoredNormals) return;
+    if (byVertex) {
+        mesh.normals = std::move(exact.normals);
+    } else {
+        const std::size_t before = mesh.positions.size();
+        splitByNormal(exact.cornerNormals, mesh);
+        report.splitVertices = mesh.positions.size() - before;
+    }
 }
 
 /// Gives each vertex one normal: a further one makes a further vertex at the same position.
-void FaceCollector::splitByNormal(TriangleMesh& mesh) {
+void FaceCollector::splitByNormal(const std::vector<Vec3>& cornerNormals, TriangleMesh& mesh) {
     constexpr std::uint32_t kNone = 0xffffffffu;
     std::vector<std::uint32_t> nextVariant(mesh.positions.size(), kNone);
     std::vector<bool> taken(mesh.positions.size(), false);
     mesh.normals.assign(mesh.positions.size(), Vec3{0});
     for (std::size_t i = 0; i < corners_.size(); ++i) {
         std::uint32_t vertex = corners_[i];
-        const Vec3& normal = cornerNormals_[i];
+        const Vec3& normal = cornerNormals[i];
         while (taken[vertex] && mesh.normals[vertex] != normal && nextVariant[vertex] != kNone)
             vertex = nextVariant[vertex];
         if (taken[vertex] && mesh.normals[vertex] != normal) {
@@ -103,28 +86,34 @@ void FaceCollector::splitByNormal(TriangleMesh& mesh) {
     }
 }
 
-TriangleMesh FaceCollector::build(Exact exact, ReaderReport& report, const std::string& where) {
+namespace {
+
+bool hasThreeDifferent(std::span<const std::uint32_t> face) {
+    if (face.size() < 3) return false;
+    const auto second =
+        std::find_if(face.begin(), face.end(), [&](std::uint32_t v) { return v != face[0]; });
+    return std::any_of(second, face.end(),
+                       [&](std::uint32_t v) { return v != face[0] && v != *second; });
+}
+
+}  // namespace
+
+TriangleMesh FaceCollector::build(SievedMesh* exact, ReaderReport& report,
+                                  const std::string& where) {
     checkRange(where);
     TriangleMesh mesh;
-    if (exact.positions.empty())
+    if (exact) {
+        mesh.positions = std::move(exact->positions);
+        takeNormals(*exact, mesh, report);
+    } else {
         mesh.positions.assign(positions_.begin(), positions_.end());
-    else
-        mesh.positions = std::move(exact.positions);
-    if (!exact.normals.empty()) {
-        report.hasFileNormals = coversAllCorners(exact.normals);
-        report.ignoredNormals = !report.hasFileNormals;
-        if (report.hasFileNormals) mesh.normals = std::move(exact.normals);
-    } else if (hasAllCornerNormals(report)) {
-        const std::size_t before = mesh.positions.size();
-        splitByNormal(mesh);
-        report.splitVertices = mesh.positions.size() - before;
     }
     std::size_t begin = 0;
     std::vector<DVec3> polygon;
     for (std::size_t end : faceEnds_) {
         const std::span<const std::uint32_t> face(corners_.data() + begin, end - begin);
         begin = end;
-        if (face.size() < 3) {
+        if (!hasThreeDifferent(face)) {
             ++report.droppedFaces;
         } else if (face.size() == 3) {
             mesh.faces.emplace_back(face[0], face[1], face[2]);

@@ -41,13 +41,6 @@ public:
     void set_point(om::VertexHandle v, const om::Vec3f& p) override {
         collector_.setPosition(index(v), {p[0], p[1], p[2]});
     }
-    void set_normal(om::VertexHandle v, const om::Vec3f& n) override {
-        // Only the OBJ reader comes here (see SievedMesh): corner by corner, just before the face.
-        collector_.setCornerNormal(index(v), {n[0], n[1], n[2]});
-    }
-    void set_normal(om::VertexHandle v, const om::Vec3d& n) override {
-        set_normal(v, om::Vec3f(n));
-    }
     om::FaceHandle add_face(const VHandles& corners) override {
         indices_.clear();
         for (const om::VertexHandle& v : corners) indices_.push_back(index(v));
@@ -58,7 +51,9 @@ public:
     std::size_t n_faces() const override { return collector_.faceCount(); }
     std::size_t n_edges() const override { return 0; }
 
-    // Nothing below concerns geometry.
+    // Nothing below concerns us; normals come from the sieve.
+    void set_normal(om::VertexHandle, const om::Vec3f&) override {}
+    void set_normal(om::VertexHandle, const om::Vec3d&) override {}
     om::HalfedgeHandle add_edge(om::VertexHandle, om::VertexHandle) override {
         return om::HalfedgeHandle();
     }
@@ -106,7 +101,7 @@ private:
     std::vector<std::uint32_t> indices_;
 };
 
-/// Reads a string in place; the OBJ reader passes over it twice.
+/// Reads a string in place; the PLY reader goes back after the header.
 class StringBuffer final : public std::streambuf {
 public:
     explicit StringBuffer(std::string& bytes) {
@@ -116,7 +111,7 @@ public:
 protected:
     pos_type seekoff(off_type offset, std::ios_base::seekdir from,
                      std::ios_base::openmode) override {
-        const char* base = from == std::ios_base::beg ? eback()
+        const char* base = from == std::ios_base::beg   ? eback()
                            : from == std::ios_base::cur ? gptr()
                                                         : egptr();
         const off_type target = base - eback() + offset;
@@ -165,16 +160,6 @@ Format formatOf(const std::filesystem::path& path) {
                 "export as .obj, .ply, .stl or .off");
 }
 
-const char* readerName(Format format) {
-    switch (format) {
-        case Format::Obj: return "obj";
-        case Format::Ply: return "ply";
-        case Format::Stl: return "stl";
-        case Format::Off: break;
-    }
-    return "off";
-}
-
 std::string readBytes(const std::filesystem::path& path) {
     std::error_code error;
     const auto status = std::filesystem::status(path, error);
@@ -195,28 +180,59 @@ std::string readBytes(const std::filesystem::path& path) {
     return bytes;
 }
 
-SievedMesh sieve(Format format, std::string bytes, const std::string& where) {
-    switch (format) {
-        case Format::Obj: return sieveObj(std::move(bytes), where);
-        case Format::Ply: return sievePly(bytes, where);
-        case Format::Stl: return sieveStl(std::move(bytes), where);
-        case Format::Off: break;
-    }
-    return sieveOff(bytes, where);
-}
-
-/// Lets OpenMesh read `source`; false if it says that it could not.
-bool runReader(Format format, SievedMesh& source, FaceCollector& collector) {
+/// Lets OpenMesh read `bytes` as binary PLY or STL.
+FaceCollector runReader(const char* reader, std::string bytes, const std::string& where) {
     // OpenMesh's readers are single objects that keep the state of the file they read.
     static std::mutex mutex;
     const std::lock_guard lock(mutex);
     const QuietOpenMesh quiet;
+    FaceCollector collector;
     CollectingImporter importer(collector);
-    om::IO::Options options(om::IO::Options::VertexNormal);
-    if (source.binary) options += om::IO::Options::Binary;
-    StringBuffer buffer(source.bytes);
+    om::IO::Options options(om::IO::Options::Binary);
+    StringBuffer buffer(bytes);
     std::istream stream(&buffer);
-    return om::IO::IOManager().read(stream, readerName(format), importer, options);
+    if (!om::IO::IOManager().read(stream, reader, importer, options))
+        throw Error(ErrorKind::BadInput, where, "OpenMesh cannot read this mesh",
+                    "export it again, best as PLY");
+    return collector;
+}
+
+[[noreturn]] void throwNoFaces(const std::string& where) {
+    throw Error(ErrorKind::BadInput, where, "the mesh has no faces",
+                "export a surface, not points or curves");
+}
+
+TriangleMesh readStl(std::string bytes, ReaderReport& report, const std::string& where) {
+    SievedStl sieved = sieveStl(std::move(bytes), where);
+    if (sieved.faces == 0) throwNoFaces(where);
+    FaceCollector collector = runReader("stl", std::move(sieved.bytes), where);
+    report.fileFaces = sieved.faces;
+    report.fileVertices = 3 * sieved.faces;
+    report.mergedVertices = report.fileVertices - collector.vertexCount();
+    // This reader leaves out faces whose corners coincide by itself.
+    report.droppedFaces = sieved.faces - collector.faceCount();
+    return collector.build(nullptr, report, where);
+}
+
+TriangleMesh readIndexed(Format format, std::string bytes, ReaderReport& report,
+                         const std::string& where) {
+    SievedMesh sieved = format == Format::Obj   ? sieveObj(std::move(bytes), where)
+                        : format == Format::Ply ? sievePly(bytes, where)
+                                                : sieveOff(bytes, where);
+    if (sieved.sizes.empty()) throwNoFaces(where);
+    FaceCollector collector = runReader("ply", sieved.plainPly(), where);
+    if (collector.vertexCount() != sieved.positions.size() ||
+        collector.faceCount() != sieved.sizes.size() ||
+        collector.cornerCount() != sieved.corners.size())
+        throw Error(
+            ErrorKind::Internal, where,
+            fmt::format("OpenMesh delivered {} vertices, {} faces and {} corners of "
+                        "{}, {} and {}",
+                        collector.vertexCount(), collector.faceCount(), collector.cornerCount(),
+                        sieved.positions.size(), sieved.sizes.size(), sieved.corners.size()));
+    report.fileFaces = sieved.sizes.size();
+    report.fileVertices = sieved.positions.size();
+    return collector.build(&sieved, report, where);
 }
 
 }  // namespace
@@ -224,38 +240,18 @@ bool runReader(Format format, SievedMesh& source, FaceCollector& collector) {
 MeshFile readMesh(const std::filesystem::path& path) {
     const Format format = formatOf(path);
     const std::string where = path.string();
-    SievedMesh source = sieve(format, readBytes(path), where);
-    if (source.faces == 0)
-        throw Error(ErrorKind::BadInput, where, "the mesh has no faces",
-                    "export a surface, not points or curves");
-
-    FaceCollector collector;
-    const bool done = runReader(format, source, collector);
-    source.bytes = {};
-    const bool allVertices =
-        format == Format::Stl || collector.vertexCount() == source.positions.size();
-    if (!done || !allVertices || collector.faceCount() > source.faces)
-        throw Error(ErrorKind::BadInput, where,
-                    fmt::format("OpenMesh read {} vertices and {} faces of {} and {}",
-                                collector.vertexCount(), collector.faceCount(),
-                                source.positions.size(), source.faces),
-                    "export the mesh again, best as PLY");
-
-    ReaderReport read;
-    read.fileFaces = source.faces;
-    read.fileVertices = format == Format::Stl ? 3 * source.faces : source.positions.size();
-    read.simplifiedPolygons = source.repeating;
-    if (format == Format::Stl) read.mergedVertices = read.fileVertices - collector.vertexCount();
-    // The OBJ and STL readers leave out faces of fewer than three different corners themselves.
-    read.droppedFaces = source.faces - collector.faceCount();
+    std::string bytes = readBytes(path);
+    ReaderReport reader;
     MeshFile file;
-    file.mesh = collector.build({std::move(source.positions), std::move(source.normals)}, read, where);
+    file.mesh = format == Format::Stl ? readStl(std::move(bytes), reader, where)
+                                      : readIndexed(format, std::move(bytes), reader, where);
     if (file.mesh.faces.empty())
-        throw Error(ErrorKind::BadInput, where,
-                    fmt::format("none of its {} faces has three different corners", source.faces),
-                    "export a surface, not points or curves");
+        throw Error(
+            ErrorKind::BadInput, where,
+            fmt::format("none of its {} faces has three different corners", reader.fileFaces),
+            "export a surface, not points or curves");
     file.report = inspectMesh(file.mesh);
-    file.report.reader = read;
+    file.report.reader = reader;
     return file;
 }
 

@@ -7,17 +7,19 @@
 namespace sss {
 
 struct MeshFile {
-    TriangleMesh mesh;   ///< in the file's unit, as the file has it: see removeUnusable, repairWinding
-    MeshReport report;   ///< of `mesh`, with what the reader found
+    TriangleMesh
+        mesh;  ///< in the file's unit, as the file has it: see removeUnusable, repairWinding
+    MeshReport report;  ///< of `mesh`, with what the reader found
 };
 
 inline constexpr std::size_t kMaxFaces = std::size_t{1} << 30;
 
-/// Reads OBJ, PLY, STL or OFF, by extension in any case, through OpenMesh's readers but not its
-/// half-edge mesh, so that no face is lost for being non-manifold.
+/// Reads OBJ, PLY, STL or OFF, by extension in any case, through OpenMesh's readers (behind a
+/// sieve, see mesh_sieve.h) but not its half-edge mesh, so that no face is lost for being
+/// non-manifold.
 ///
-/// - Positions keep the digits of the file (double), which OpenMesh's readers do not: see
-///   mesh_sieve.h. STL is single precision by its nature; its corners at the same place are merged.
+/// - Positions keep the digits of the file (double), which OpenMesh's readers alone do not. STL is
+/// single precision by its nature; its corners at the same place are merged.
 /// - Normals are kept if every face corner has one; a vertex with several (OBJ) is split, with
 ///   bit-identical positions. They are made unit.
 /// - Polygons are cut into triangles. Faces of fewer than three different corners are left out and

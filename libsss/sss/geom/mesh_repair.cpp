@@ -95,8 +95,7 @@ std::vector<bool> findDuplicateFaces(const TriangleMesh& mesh) {
     std::vector<bool> duplicate(mesh.faces.size(), false);
     for (FaceIndex face = 0; face < mesh.faces.size(); ++face) {
         const std::array<std::uint32_t, 3> own = key(face);
-        std::size_t slot =
-            combineSeeds(combineSeeds(own[0], own[1]), own[2]) & (slots - 1);
+        std::size_t slot = combineSeeds(combineSeeds(own[0], own[1]), own[2]) & (slots - 1);
         while (table[slot] != kFree && key(table[slot]) != own) slot = (slot + 1) & (slots - 1);
         if (table[slot] == kFree)
             table[slot] = face;

@@ -116,26 +116,22 @@ void describeTopology(const MeshReport& r, double mmPerUnit, std::vector<std::st
 void describeLeftOut(const MeshReport& r, std::vector<std::string>& out) {
     if (r.reader.droppedFaces > 0)
         out.push_back(fmt::format(
-            "{} fewer than three different corners and left out; nothing is lost but a clean-up in "
-            "a mesh editor would drop them",
+            "{} fewer than three different corners, so no surface, and left out; a clean-up in a "
+            "mesh editor removes such faces",
             counted(r.reader.droppedFaces, "face of the file has", "faces of the file have")));
-    if (r.reader.simplifiedPolygons > 0)
-        out.push_back(fmt::format(
-            "{} a vertex twice, as holes tied to a rim do, and may have lost a corner in reading: "
-            "triangulate the mesh before export",
-            counted(r.reader.simplifiedPolygons, "polygon uses", "polygons use")));
     if (r.degenerateFaces > 0)
         out.push_back(
-            fmt::format("{} no area and left out; merge close vertices in a mesh editor "
+            fmt::format("{} no area, left out here; merge close vertices in a mesh editor "
                         "if cracks show",
                         counted(r.degenerateFaces, "face has", "faces have")));
     if (r.duplicateFaces > 0)
-        out.push_back(fmt::format(
-            "{} an earlier one and left out; remove doubles in a mesh editor if that is not meant",
-            counted(r.duplicateFaces, "face repeats", "faces repeat")));
+        out.push_back(
+            fmt::format("{} an earlier one, left out here; remove doubles in a mesh editor if that "
+                        "is not meant",
+                        counted(r.duplicateFaces, "face repeats", "faces repeat")));
     if (r.unreferencedVertices > 0)
         out.push_back(
-            fmt::format("{} to no face and left out, also of the size that a fit sees; if a "
+            fmt::format("{} to no face, left out also of the size that a fit sees; if a "
                         "part is missing, export the faces as well",
                         counted(r.unreferencedVertices, "vertex belongs", "vertices belong")));
     if (r.reader.ignoredNormals)

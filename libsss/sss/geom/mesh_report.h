@@ -9,28 +9,27 @@ namespace sss {
 /// What a file held, and what reading did to it.
 struct ReaderReport {
     std::size_t fileVertices = 0, fileFaces = 0;
-    std::size_t polygons = 0;          ///< faces with more than three corners, cut into triangles
-    std::size_t droppedFaces = 0;      ///< with fewer than three different corners: no surface
-    std::size_t simplifiedPolygons = 0;  ///< that OpenMesh shortens as they use a vertex twice
-    std::size_t mergedVertices = 0;    ///< of an STL: corners at the same place, made one vertex
-    std::size_t splitVertices = 0;     ///< added where one position has several file normals
+    std::size_t polygons = 0;        ///< faces with more than three corners, cut into triangles
+    std::size_t droppedFaces = 0;    ///< with fewer than three different corners: no surface
+    std::size_t mergedVertices = 0;  ///< of an STL: corners at the same place, made one vertex
+    std::size_t splitVertices = 0;   ///< added where one position has several file normals
     bool hasFileNormals = false;
-    bool ignoredNormals = false;       ///< the file has normals, but not for all corners
+    bool ignoredNormals = false;  ///< the file has normals, but not for all corners
 };
 
-/// What is unusual about a mesh; lengths and places in its own unit. Vertices at identical positions
-/// count as one wherever faces meet.
+/// What is unusual about a mesh; lengths and places in its own unit. Vertices at identical
+/// positions count as one wherever faces meet.
 struct MeshReport {
     std::size_t vertices = 0, faces = 0;
-    std::size_t components = 0;        ///< joined by edges of exactly two faces
+    std::size_t components = 0;  ///< joined by edges of exactly two faces
     std::size_t closedComponents = 0;
-    bool closed = false;               ///< has faces, and none of its edges has an odd number
+    bool closed = false;  ///< has faces, and none of its edges has an odd number
 
-    std::size_t openEdges = 0;         ///< with one face
-    std::size_t openLoops = 0;         ///< connected runs of them
-    double openLength = 0;             ///< of all open edges
+    std::size_t openEdges = 0;  ///< with one face
+    std::size_t openLoops = 0;  ///< connected runs of them
+    double openLength = 0;      ///< of all open edges
     double longestLoopLength = 0;
-    DVec3 longestLoopCentre{0};        ///< mean place of the longest loop, by length
+    DVec3 longestLoopCentre{0};  ///< mean place of the longest loop, by length
 
     std::size_t nonManifoldEdges = 0;  ///< with three or more faces
     DVec3 nonManifoldPlace{0};         ///< the middle of the first of them

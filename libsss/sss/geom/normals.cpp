@@ -58,24 +58,27 @@ TriangleMesh withCreases(const TriangleMesh& mesh, double creaseDegrees) {
 
     constexpr std::uint32_t kNone = 0xffffffffu;
     std::vector<std::uint32_t> vertexOfFan(mesh.faces.size() * 3, kNone);
-    std::vector<DVec3> sums;
+    std::uint32_t vertices = 0;
     TriangleMesh out;
-    out.faces.resize(mesh.faces.size());
+    out.faces = mesh.faces;
+    for (FaceIndex face = 0; face < mesh.faces.size(); ++face)
+        for (int corner = 0; corner < 3; ++corner) {
+            const std::uint32_t fan = fans.find(cornerId(face, static_cast<unsigned>(corner)));
+            if (vertexOfFan[fan] == kNone) vertexOfFan[fan] = vertices++;
+            out.faces[face][corner] = vertexOfFan[fan];
+        }
+
+    out.positions.assign(vertices, DVec3{0});
+    std::vector<DVec3> sums(vertices, DVec3{0});
     for (FaceIndex face = 0; face < mesh.faces.size(); ++face) {
         const DVec3 angles = cornerAngles(mesh, face);
         for (int corner = 0; corner < 3; ++corner) {
-            const std::uint32_t fan = fans.find(cornerId(face, static_cast<unsigned>(corner)));
-            std::uint32_t& vertex = vertexOfFan[fan];
-            if (vertex == kNone) {
-                vertex = static_cast<std::uint32_t>(out.positions.size());
-                out.positions.push_back(mesh.positions[mesh.faces[face][corner]]);
-                sums.emplace_back(0);
-            }
+            const std::uint32_t vertex = out.faces[face][corner];
+            out.positions[vertex] = mesh.positions[mesh.faces[face][corner]];
             sums[vertex] += faceNormals[face] * angles[corner];
-            out.faces[face][corner] = vertex;
         }
     }
-    out.normals.reserve(sums.size());
+    out.normals.reserve(vertices);
     for (const DVec3& sum : sums) out.normals.emplace_back(unitOrZero(sum));
     return out;
 }

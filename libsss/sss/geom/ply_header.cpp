@@ -19,11 +19,21 @@ namespace {
 
 PlyType typeNamed(std::string_view name, const std::string& where) {
     constexpr std::array<std::pair<std::string_view, PlyType>, 16> kNames{
-        {{"char", PlyType::Int8},      {"int8", PlyType::Int8},      {"uchar", PlyType::UInt8},
-         {"uint8", PlyType::UInt8},    {"short", PlyType::Int16},    {"int16", PlyType::Int16},
-         {"ushort", PlyType::UInt16},  {"uint16", PlyType::UInt16},  {"int", PlyType::Int32},
-         {"int32", PlyType::Int32},    {"uint", PlyType::UInt32},    {"uint32", PlyType::UInt32},
-         {"float", PlyType::Float32},  {"float32", PlyType::Float32}, {"double", PlyType::Float64},
+        {{"char", PlyType::Int8},
+         {"int8", PlyType::Int8},
+         {"uchar", PlyType::UInt8},
+         {"uint8", PlyType::UInt8},
+         {"short", PlyType::Int16},
+         {"int16", PlyType::Int16},
+         {"ushort", PlyType::UInt16},
+         {"uint16", PlyType::UInt16},
+         {"int", PlyType::Int32},
+         {"int32", PlyType::Int32},
+         {"uint", PlyType::UInt32},
+         {"uint32", PlyType::UInt32},
+         {"float", PlyType::Float32},
+         {"float32", PlyType::Float32},
+         {"double", PlyType::Float64},
          {"float64", PlyType::Float64}}};
     const auto* const found = std::find_if(kNames.begin(), kNames.end(),
                                            [&](const auto& entry) { return entry.first == name; });
@@ -79,13 +89,17 @@ void checkCounts(const PlyHeader& header, std::size_t bytesLeft, const std::stri
 std::size_t plySize(PlyType type) {
     switch (type) {
         case PlyType::Int8:
-        case PlyType::UInt8: return 1;
+        case PlyType::UInt8:
+            return 1;
         case PlyType::Int16:
-        case PlyType::UInt16: return 2;
-        case PlyType::Float64: return 8;
+        case PlyType::UInt16:
+            return 2;
+        case PlyType::Float64:
+            return 8;
         case PlyType::Int32:
         case PlyType::UInt32:
-        case PlyType::Float32: break;
+        case PlyType::Float32:
+            break;
     }
     return 4;
 }
@@ -99,7 +113,8 @@ std::uint64_t PlyElement::leastSize(PlyFormat format) const {
 
 PlyHeader cutPlyHeader(std::string_view& rest, const std::string& where) {
     std::string_view first = cutLine(rest);
-    if (cutToken(first) != "ply") fail(where, "this is no PLY file: it does not start with \"ply\"");
+    if (cutToken(first) != "ply")
+        fail(where, "this is no PLY file: it does not start with \"ply\"");
     PlyHeader header;
     bool hasFormat = false;
     while (true) {

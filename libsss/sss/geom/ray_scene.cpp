@@ -56,8 +56,8 @@ std::shared_ptr<Device> sharedDevice() {
 
 /// Copies `values` into a new buffer that Embree owns and pads.
 template <typename T>
-const T* setBuffer(RTCGeometry geometry, RTCBufferType type, RTCFormat format, std::span<const T> values,
-               const Device& device) {
+const T* setBuffer(RTCGeometry geometry, RTCBufferType type, RTCFormat format,
+                   std::span<const T> values, const Device& device) {
     T* buffer = static_cast<T*>(
         rtcSetNewGeometryBuffer(geometry, type, 0, format, sizeof(T), values.size()));
     device.check("copying a mesh");
@@ -115,11 +115,11 @@ RayScene::RayScene(std::span<const Geometry> geometries) : impl_(std::make_uniqu
     rtcSetSceneBuildQuality(impl_->scene, RTC_BUILD_QUALITY_MEDIUM);
     for (std::size_t i = 0; i < geometries.size(); ++i) {
         const Geometry& input = geometries[i];
-        const RTCGeometry geometry =
-            rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
+        const RTCGeometry geometry = rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
         if (!geometry) device.check("adding a mesh");
         impl_->meshes.push_back(
-            {setBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3, input.positions, device),
+            {setBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3, input.positions,
+                       device),
              setBuffer(geometry, RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT3, input.faces, device)});
         rtcSetGeometryMask(geometry, input.mask);
         rtcCommitGeometry(geometry);

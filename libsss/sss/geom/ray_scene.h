@@ -21,8 +21,8 @@ struct Hit {
     float t = 0;                 ///< mm along the unit direction
     std::uint32_t geometry = 0;  ///< index in the order of addition
     std::uint32_t face = 0;
-    float u = 0, v = 0;   ///< barycentrics of the face's second and third corner
-    Vec3 normal{};        ///< unit geometric normal by the winding (not turned to the ray)
+    float u = 0, v = 0;  ///< barycentrics of the face's second and third corner
+    Vec3 normal{};       ///< unit geometric normal by the winding (not turned to the ray)
 };
 
 /// Bits of Ray queries: a geometry is seen if (its mask & the query's mask) != 0.
@@ -31,8 +31,8 @@ inline constexpr std::uint32_t kAllGeometry = 0xffffffffu;
 /// All triangles of a scene behind Embree. Built once, then const and thread-safe.
 ///
 /// No ray slips through an edge that two faces share (Embree's robust mode; without it, 5 % of the
-/// rays aimed exactly at an edge do). Of rays aimed exactly at a vertex about 1 % pass. Which of two
-/// faces a ray on their edge hits does not depend on the number of threads.
+/// rays aimed exactly at an edge do). Of rays aimed exactly at a vertex about 1 % pass. Which of
+/// two faces a ray on their edge hits does not depend on the number of threads.
 class RayScene {
 public:
     struct Geometry {
@@ -65,11 +65,11 @@ private:
     Bounds bounds_;
 };
 
-/// Moves a point on a surface off it along the unit `normal` (towards where the next ray leaves), by
-/// 64 units in the last place of its largest coordinate, and by 2^-16 mm at least, in the manner of
-/// [Waechter & Binder 2019, Ray Tracing Gems 6]. For points whose face is not at hand; where there
-/// is a Hit, RayScene::leave is tighter. The step is one length along the normal, not one per axis
-/// as in the article: there a coordinate near zero gets a step smaller than the point's error.
+/// Moves a point on a surface off it along the unit `normal` (towards where the next ray leaves),
+/// by 64 units in the last place of its largest coordinate, and by 2^-16 mm at least, in the manner
+/// of [Waechter & Binder 2019, Ray Tracing Gems 6]. For points whose face is not at hand; where
+/// there is a Hit, RayScene::leave is tighter. The step is one length along the normal, not one per
+/// axis as in the article: there a coordinate near zero gets a step smaller than the point's error.
 Vec3 offsetFromSurface(const Vec3& point, const Vec3& normal);
 
 }  // namespace sss

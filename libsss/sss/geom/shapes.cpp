@@ -99,7 +99,8 @@ TriangleMesh diskOfRings(double radius, std::uint32_t rings) {
 /// Rings whose triangles have no edge above maxEdge: the longest goes one ring outward, 1/rings,
 /// and up to one step along it, (2 pi / 6) / rings.
 std::uint32_t ringCount(double radius, double maxEdge, double triangleBudget) {
-    return divisions(std::hypot(1.0, kPi / 3.0) * radius, maxEdge, kDiskRings, std::sqrt(triangleBudget / 6));
+    return divisions(std::hypot(1.0, kPi / 3.0) * radius, maxEdge, kDiskRings,
+                     std::sqrt(triangleBudget / 6));
 }
 
 /// Merges vertices at the same position; for meshes whose normals follow from positions.
@@ -133,9 +134,9 @@ constexpr std::array<DVec3, 12> kIcosahedron{{{-1, kGolden, 0},
                                               {-kGolden, 0, -1},
                                               {-kGolden, 0, 1}}};
 constexpr std::array<std::array<std::uint32_t, 3>, 20> kIcosahedronFaces{
-    {{0, 11, 5}, {0, 5, 1},  {0, 1, 7},   {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4},
-     {11, 10, 2}, {10, 7, 6}, {7, 1, 8},   {3, 9, 4},  {3, 4, 2},   {3, 2, 6}, {3, 6, 8},
-     {3, 8, 9},  {4, 9, 5},  {2, 4, 11},  {6, 2, 10}, {8, 6, 7},   {9, 8, 1}}};
+    {{0, 11, 5},  {0, 5, 1},  {0, 1, 7},  {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4},
+     {11, 10, 2}, {10, 7, 6}, {7, 1, 8},  {3, 9, 4},  {3, 4, 2},   {3, 2, 6}, {3, 6, 8},
+     {3, 8, 9},   {4, 9, 5},  {2, 4, 11}, {6, 2, 10}, {8, 6, 7},   {9, 8, 1}}};
 
 /// i a + j b + k c for the corners of an icosahedron's face, summed in the order of the corners'
 /// numbers, so that two faces get the same bits on their common edge.
@@ -155,8 +156,8 @@ DVec3 weightedCorners(const std::array<std::uint32_t, 3>& face,
 TriangleMesh makeSphere(double radius, double maxEdge) {
     // The longest edges lie in the middle of the icosahedron's faces, where the projection scales
     // its edge, 1.0515, by the inverse of the inner radius 0.7947.
-    const std::uint32_t n = divisions(1.3232 * radius, maxEdge, kSphereFrequency,
-                                      std::sqrt(kMaxShapeTriangles / 20.0));
+    const std::uint32_t n =
+        divisions(1.3232 * radius, maxEdge, kSphereFrequency, std::sqrt(kMaxShapeTriangles / 20.0));
     TriangleMesh mesh;
     mesh.faces.reserve(20ull * n * n);
     for (const auto& face : kIcosahedronFaces) {
@@ -184,8 +185,8 @@ TriangleMesh makeSphere(double radius, double maxEdge) {
 
 TriangleMesh makeRectangle(double width, double height, double maxEdge) {
     // The diagonal of a cell is its longest edge.
-    const double cell = std::max(maxEdge / std::sqrt(2.0),
-                                 std::sqrt(2.0 * width * height / kMaxShapeTriangles));
+    const double cell =
+        std::max(maxEdge / std::sqrt(2.0), std::sqrt(2.0 * width * height / kMaxShapeTriangles));
     TriangleMesh mesh;
     addPlane(mesh, {0, 1, 2, 1.0}, evenly(width, divisions(width, cell, 1, 1e6)),
              evenly(height, divisions(height, cell, 1, 1e6)), 0.0);
@@ -220,10 +221,12 @@ TriangleMesh makeCylinder(double radius, double height, double maxEdge) {
     constexpr double kCapBudget = 0.4 * kMaxShapeTriangles;  // both caps; the side takes the rest
     const std::uint32_t rings = ringCount(radius, maxEdge, kCapBudget / 2);
     const std::uint32_t segments = 6 * rings;
+    // A side cell's diagonal is its longest edge; cells are square unless maxEdge is shorter. (The
+    // rim is at most 0.73 maxEdge wide by the caps' rule, so the root is real, but for the cap.)
     const double rimEdge = 2.0 * kPi * radius / segments;
-    const std::uint32_t rows =
-        divisions(height, std::min(rimEdge, maxEdge / std::sqrt(2.0)), 1,
-                  (kMaxShapeTriangles - kCapBudget) / (2.0 * segments));
+    const double tall = std::sqrt(std::max(maxEdge * maxEdge - rimEdge * rimEdge, 1e-300));
+    const std::uint32_t rows = divisions(height, std::min(rimEdge, tall), 1,
+                                         (kMaxShapeTriangles - kCapBudget) / (2.0 * segments));
     const std::vector<double> ys = evenly(height, rows);
     TriangleMesh mesh;
     for (double y : ys)

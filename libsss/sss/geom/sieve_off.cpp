@@ -4,8 +4,6 @@
 
 #include <fmt/core.h>
 
-#include <iterator>
-
 namespace sss {
 
 namespace {
@@ -16,7 +14,6 @@ public:
 
     SievedMesh run() {
         const Header header = readHeader();
-        out_.bytes = fmt::format("OFF\n{} {} 0\n", header.vertices, header.faces);
         CoordinateCheck coordinates(where_);
         for (std::size_t i = 0; i < header.vertices; ++i) {
             vertex(i, header.normals);
@@ -93,8 +90,6 @@ private:
             p[axis] = *value;
         }
         out_.positions.push_back(p);
-        // The vertices themselves stay here, exact; OpenMesh only needs their number.
-        out_.bytes += "0 0 0\n";
         if (!normals) return;
         DVec3 n;
         for (int axis = 0; axis < 3; ++axis) {
@@ -112,7 +107,6 @@ private:
         if (!size || *size < 0 || static_cast<std::size_t>(*size) > line.size())
             fail(fmt::format("face {} starts with \"{}\", which is not its number of corners",
                              index, sizeToken));
-        out_.bytes += sizeToken;
         for (long long corner = 0; corner < *size; ++corner) {
             const std::string_view token = cutToken(line);
             const std::optional<long long> vertex = parseInteger(token);
@@ -120,10 +114,9 @@ private:
             if (*vertex < 0 || static_cast<std::size_t>(*vertex) >= out_.positions.size())
                 fail(fmt::format("face {} uses vertex {}, but the file has {} (from 0)", index,
                                  *vertex, out_.positions.size()));
-            fmt::format_to(std::back_inserter(out_.bytes), " {}", *vertex);
+            out_.corners.push_back(static_cast<std::uint32_t>(*vertex));
         }
-        out_.bytes += '\n';
-        ++out_.faces;
+        out_.sizes.push_back(static_cast<std::uint32_t>(*size));
     }
 
     std::string_view rest_;

@@ -14,8 +14,6 @@ namespace sss {
 
 namespace {
 
-static_assert(std::endian::native == std::endian::little, "binary PLY is copied as it lies");
-
 /// The values after the header, one by one.
 class PlyValues {
 public:
@@ -56,14 +54,22 @@ private:
         if (format_ == PlyFormat::BigEndian)
             std::reverse(raw.begin(), raw.begin() + static_cast<std::ptrdiff_t>(size));
         switch (type) {
-            case PlyType::Int8: return as<std::int8_t>(raw);
-            case PlyType::UInt8: return as<std::uint8_t>(raw);
-            case PlyType::Int16: return as<std::int16_t>(raw);
-            case PlyType::UInt16: return as<std::uint16_t>(raw);
-            case PlyType::Int32: return as<std::int32_t>(raw);
-            case PlyType::UInt32: return as<std::uint32_t>(raw);
-            case PlyType::Float32: return static_cast<double>(as<float>(raw));
-            case PlyType::Float64: break;
+            case PlyType::Int8:
+                return as<std::int8_t>(raw);
+            case PlyType::UInt8:
+                return as<std::uint8_t>(raw);
+            case PlyType::Int16:
+                return as<std::int16_t>(raw);
+            case PlyType::UInt16:
+                return as<std::uint16_t>(raw);
+            case PlyType::Int32:
+                return as<std::int32_t>(raw);
+            case PlyType::UInt32:
+                return as<std::uint32_t>(raw);
+            case PlyType::Float32:
+                return static_cast<double>(as<float>(raw));
+            case PlyType::Float64:
+                break;
         }
         return as<double>(raw);
     }
@@ -83,7 +89,9 @@ private:
 class PlySieve {
 public:
     PlySieve(std::string_view bytes, const std::string& where)
-        : where_(where), header_(cutPlyHeader(bytes, where)), values_(bytes, header_.format, where) {
+        : where_(where),
+          header_(cutPlyHeader(bytes, where)),
+          values_(bytes, header_.format, where) {
         checkElements();
     }
 
@@ -96,15 +104,7 @@ public:
                     other(element, i);
             }
         checkResults();
-        SievedMesh out;
-        // The vertices themselves stay here, exact; OpenMesh only needs their number.
-        out.bytes = plainHeader() + std::string(positions_.size() * 3 * sizeof(float), '\0') +
-                    faceBytes_;
-        out.binary = true;
-        out.positions = std::move(positions_);
-        out.normals = std::move(normals_);
-        out.faces = faces_;
-        return out;
+        return std::move(out_);
     }
 
 private:
@@ -142,11 +142,10 @@ private:
             }
             const double value = values_.next(p.type, element, index);
             const auto* const slot = std::find(kNames.begin(), kNames.end(), p.name);
-            if (slot != kNames.end())
-                kept[static_cast<std::size_t>(slot - kNames.begin())] = value;
+            if (slot != kNames.end()) kept[static_cast<std::size_t>(slot - kNames.begin())] = value;
         }
-        positions_.emplace_back(kept[0], kept[1], kept[2]);
-        if (hasNormals_) normals_.push_back(usableNormal({kept[3], kept[4], kept[5]}));
+        out_.positions.emplace_back(kept[0], kept[1], kept[2]);
+        if (hasNormals_) out_.normals.push_back(usableNormal({kept[3], kept[4], kept[5]}));
     }
 
     void other(const PlyElement& element, std::uint64_t index) {
@@ -177,7 +176,6 @@ private:
 
     void face(const PlyElement& element, const PlyProperty& p, std::uint64_t index) {
         const std::uint32_t size = listSize(element, p, index);
-        append(faceBytes_, size);
         for (std::uint32_t i = 0; i < size; ++i) {
             const double corner = values_.next(p.type, element, index);
             // Faces may stand before the vertices, so the range is checked at the end.
@@ -188,45 +186,27 @@ private:
                 highest_ = vertex;
                 highestFace_ = index;
             }
-            append(faceBytes_, vertex);
+            out_.corners.push_back(vertex);
         }
-        hasCorners_ = hasCorners_ || size > 0;
-        ++faces_;
+        out_.sizes.push_back(size);
     }
 
     void checkResults() const {
         CoordinateCheck coordinates(where_);
-        for (const DVec3& p : positions_) coordinates.add(p);
+        for (const DVec3& p : out_.positions) coordinates.add(p);
         coordinates.finish();
-        if (hasCorners_ && highest_ >= positions_.size())
+        if (!out_.corners.empty() && highest_ >= out_.positions.size())
             throw Error(ErrorKind::BadInput, where_,
                         fmt::format("face {} uses vertex {}, but the file has {} (both from 0)",
-                                    highestFace_, highest_, positions_.size()),
+                                    highestFace_, highest_, out_.positions.size()),
                         "export the mesh again");
-    }
-
-    std::string plainHeader() const {
-        return fmt::format(
-            "ply\nformat binary_little_endian 1.0\nelement vertex {}\nproperty float x\n"
-            "property float y\nproperty float z\nelement face {}\n"
-            "property list int uint vertex_indices\nend_header\n",
-            positions_.size(), faces_);
-    }
-
-    template <typename T>
-    static void append(std::string& bytes, T value) {
-        const auto raw = std::bit_cast<std::array<char, sizeof(T)>>(value);
-        bytes.append(raw.data(), raw.size());
     }
 
     const std::string& where_;
     PlyHeader header_;
     PlyValues values_;
-    bool hasNormals_ = false, hasCorners_ = false;
-    std::vector<DVec3> positions_;
-    std::vector<Vec3> normals_;
-    std::string faceBytes_;
-    std::size_t faces_ = 0;
+    bool hasNormals_ = false;
+    SievedMesh out_;
     std::uint32_t highest_ = 0;
     std::uint64_t highestFace_ = 0;
 };

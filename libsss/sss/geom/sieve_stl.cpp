@@ -34,10 +34,10 @@ bool isBinary(std::string_view bytes) {
 std::size_t checkBinary(std::string_view bytes, const std::string& where) {
     const std::size_t faces = facesInHeader(bytes);
     if (bytes.size() < kHeader)
-        throw Error(ErrorKind::BadInput, where,
-                    fmt::format("truncated: {} bytes, less than the header of an STL file",
-                                bytes.size()),
-                    "export or copy the mesh again");
+        throw Error(
+            ErrorKind::BadInput, where,
+            fmt::format("truncated: {} bytes, less than the header of an STL file", bytes.size()),
+            "export or copy the mesh again");
     if (bytes.size() < kHeader + kRecord * faces)
         throw Error(ErrorKind::BadInput, where,
                     fmt::format("truncated: the header announces {} faces, {} bytes, but the file "
@@ -60,19 +60,26 @@ public:
     AsciiStl(std::string_view bytes, const std::string& where)
         : rest_(bytes), where_(where), coordinates_(where) {}
 
-    std::size_t check() {
-        std::size_t faces = 0;
+    /// The same triangles as binary STL, which OpenMesh reads much faster and by its size only.
+    SievedStl run() {
+        SievedStl out;
+        out.bytes.assign(kHeader, ' ');
         while (!rest_.empty()) {
             const std::string_view line = nextLine();
             if (line.find("outer") != line.npos || line.find("OUTER") != line.npos) {
-                for (int corner = 0; corner < 3; ++corner) vertex(nextLine());
-                ++faces;
+                for (int i = 0; i < 3; ++i) appendBytes(out.bytes, 0.0f);
+                for (int corner = 0; corner < 3; ++corner) vertex(nextLine(), out.bytes);
+                appendBytes(out.bytes, std::uint16_t{0});
+                ++out.faces;
             } else if (isVertex(line)) {
                 fail("a vertex outside of \"outer loop\", or the fourth of one");
             }
         }
         coordinates_.finish();
-        return faces;
+        if (out.faces > 0xffffffffu) fail("too many faces");
+        const auto faces = static_cast<std::uint32_t>(out.faces);
+        std::memcpy(out.bytes.data() + 80, &faces, sizeof faces);
+        return out;
     }
 
 private:
@@ -88,7 +95,7 @@ private:
         const std::string_view word = cutToken(line);
         return word == "vertex" || word == "VERTEX";
     }
-    void vertex(std::string_view line) {
+    void vertex(std::string_view line, std::string& bytes) {
         if (!isVertex(line)) fail("a vertex of a face is missing");
         cutToken(line);
         DVec3 p;
@@ -96,9 +103,9 @@ private:
             const std::string_view token = cutToken(line);
             const std::optional<double> value = parseNumber(token);
             if (!value) fail(fmt::format("a vertex has \"{}\" where a number belongs", token));
-            // What a float cannot hold is infinite to OpenMesh.
             constexpr double kMax = std::numeric_limits<float>::max();
             p[axis] = std::abs(*value) > kMax ? std::numeric_limits<double>::infinity() : *value;
+            appendBytes(bytes, static_cast<float>(p[axis]));
         }
         coordinates_.add(p);
     }
@@ -111,15 +118,16 @@ private:
 
 }  // namespace
 
-SievedMesh sieveStl(std::string bytes, const std::string& where) {
-    SievedMesh out;
-    out.binary = isBinary(bytes);
+SievedStl sieveStl(std::string bytes, const std::string& where) {
+    if (isBinary(bytes)) {
+        SievedStl out;
+        out.faces = checkBinary(bytes, where);
+        out.bytes = std::move(bytes);
+        return out;
+    }
     // Old Macintosh line ends.
-    if (!out.binary && bytes.find('\n') == bytes.npos)
-        std::replace(bytes.begin(), bytes.end(), '\r', '\n');
-    out.faces = out.binary ? checkBinary(bytes, where) : AsciiStl(bytes, where).check();
-    out.bytes = std::move(bytes);
-    return out;
+    if (bytes.find('\n') == bytes.npos) std::replace(bytes.begin(), bytes.end(), '\r', '\n');
+    return AsciiStl(bytes, where).run();
 }
 
 }  // namespace sss

@@ -11,11 +11,11 @@ struct WindingPlan {
     static constexpr std::uint32_t kNoComponent = 0xffffffffu;
     struct Component {
         std::size_t faces = 0;
-        bool closed = false;      ///< every edge has exactly two faces
-        bool orientable = true;   ///< false: no winding suits all its faces (a Moebius strip)
-        bool turned = false;      ///< all its faces are to be flipped
-        std::size_t minority = 0; ///< faces that disagreed with the rest
-        double volume = 0;        ///< signed, about its own centre, as planned
+        bool closed = false;       ///< every edge has exactly two faces
+        bool orientable = true;    ///< false: no winding suits all its faces (a Moebius strip)
+        bool turned = false;       ///< all its faces are to be flipped
+        std::size_t minority = 0;  ///< faces that disagreed with the rest
+        double volume = 0;         ///< signed, about its own centre, as planned
         DBounds bounds;
     };
     std::vector<std::uint32_t> componentOfFace;  ///< kNoComponent for faces that repeat a position

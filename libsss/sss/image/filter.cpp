@@ -34,7 +34,7 @@ std::vector<double> tabulated(double (*shape)(double)) {
 
 }  // namespace
 
-const std::array<FilterInfo, kFilterCount> kFilters{{
+const std::array<FilterInfo, kFilterCount> kPixelFilters{{
     {"box", 0.5, box},
     {"tent", 1.0, tent},
     {"gaussian", 1.5, gaussian},
@@ -43,7 +43,7 @@ const std::array<FilterInfo, kFilterCount> kFilters{{
 
 std::optional<FilterKind> filterKind(std::string_view name) {
     for (std::size_t i = 0; i < kFilterCount; ++i)
-        if (kFilters[i].name == name) return static_cast<FilterKind>(i);
+        if (kPixelFilters[i].name == name) return static_cast<FilterKind>(i);
     return std::nullopt;
 }
 

@@ -17,12 +17,12 @@ struct FilterInfo {
     double (*shape)(double t);   ///< unnormalised value at t = x / radius, |t| <= 1
 };
 inline constexpr std::size_t kFilterCount = 4;
-extern const std::array<FilterInfo, kFilterCount> kFilters;
+extern const std::array<FilterInfo, kFilterCount> kPixelFilters;
 
 /// The filter called `name`; nothing if there is none.
 std::optional<FilterKind> filterKind(std::string_view name);
 inline const FilterInfo& filterInfo(FilterKind kind) {
-    return kFilters[static_cast<std::size_t>(kind)];
+    return kPixelFilters[static_cast<std::size_t>(kind)];
 }
 
 /// A separable pixel filter by importance sampling: each camera sample belongs to one pixel, its

@@ -1,5 +1,6 @@
 #include "sss/integrate/body_optics.h"
 
+#include "sss/medium/energy.h"
 #include "sss/optics/fresnel.h"
 #include "sss/optics/fresnel_moments.h"
 
@@ -13,6 +14,8 @@ BodyOptics::BodyOptics(const TranslucentMaterial& translucent) : material(transl
         auto& profile = profiles[static_cast<std::size_t>(c)];
         profile = makeProfile(translucent.profile, channel, translucent.profileOptions);
         diffuseAlbedo[c] = static_cast<float>(profile->total());
+        if (translucent.singleScattering)
+            multipleScale[c] = static_cast<float>(multipleScatterScale(*profile, channel));
     }
 }
 

@@ -106,7 +106,7 @@ IrradianceResult computeIrradiance(const World& world, int body, const SurfaceSa
     std::uint64_t estimates = 0;
     parallelFor(samples.size(), kGrain, [&](std::size_t begin, std::size_t end) {
         PathCounts counts;
-        std::uint64_t spent = 0;
+        std::uint64_t spent = 0, dropped = 0;
         for (std::size_t p = begin; p < end; ++p) {
             const std::uint32_t first = samples.firstStratum[p];
             const auto strata = static_cast<int>(samples.firstStratum[p + 1] - first);
@@ -121,7 +121,10 @@ IrradianceResult computeIrradiance(const World& world, int body, const SurfaceSa
                                                    samples.strata.positions[s]);
                 Sampler sampler(combineSeeds(seed, p), static_cast<std::uint32_t>(k));
                 const Rgb e = estimator.estimate(hit, sampler, counts);
-                if (!isFinite(e)) continue;
+                if (!isFinite(e)) {
+                    ++dropped;
+                    continue;
+                }
                 sum += DRgb(e);
                 squares += static_cast<double>(meanComponent(e)) * meanComponent(e);
             }
@@ -134,6 +137,7 @@ IrradianceResult computeIrradiance(const World& world, int body, const SurfaceSa
         const std::scoped_lock lock(mutex);
         result.counts.add(counts);
         estimates += spent;
+        result.nonFinite += dropped;
     });
     double variance = 0, mean = 0;
     for (std::size_t p = 0; p < samples.size(); ++p) {

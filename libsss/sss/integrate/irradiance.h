@@ -13,6 +13,7 @@ struct IrradianceResult {
     /// RMS over the points of the standard error of a point's irradiance, relative to the mean
     /// irradiance: from the spread of its samples as if they were independent, so an upper bound.
     double pointNoise = 0;
+    std::uint64_t nonFinite = 0;  ///< samples dropped as NaN or infinite
     PathCounts counts;
 };
 

@@ -6,27 +6,9 @@
 
 #include <fmt/core.h>
 
-#include <chrono>
 #include <cmath>
 
 namespace sss {
-namespace {
-
-class Stopwatch {
-public:
-    double lap() {
-        const auto now = std::chrono::steady_clock::now();
-        const double seconds = std::chrono::duration<double>(now - last_).count();
-        last_ = now;
-        return seconds;
-    }
-
-private:
-    std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
-};
-
-}  // namespace
-
 std::vector<std::unique_ptr<BodyOptics>> makeBodyOptics(const World& world) {
     std::vector<std::unique_ptr<BodyOptics>> optics;
     for (const Body& body : world.bodies())
@@ -41,15 +23,12 @@ double pointSpacingMm(const World& world, const Body& body, const BodyOptics& op
     return std::isfinite(spacing) ? spacing : body.mesh.bounds().diagonal();
 }
 
-BodyCloud preprocessBody(const World& world, int bodyIndex,
-                         std::span<const std::unique_ptr<BodyOptics>> optics,
-                         const PreprocessLimits& limits, Reporter& reporter, BodyReport& report) {
+SurfaceSamples placePoints(const World& world, int bodyIndex, const BodyOptics& optics,
+                           const PreprocessLimits& limits, Reporter& reporter, BodyReport& report) {
     const Body& body = world.bodies()[static_cast<std::size_t>(bodyIndex)];
-    const BodyOptics& own = *optics[static_cast<std::size_t>(bodyIndex)];
-    const QualitySettings& quality = world.scene().quality;
     SamplerOptions options;
-    options.spacingMm = pointSpacingMm(world, body, own);
-    options.seed = quality.seed;
+    options.spacingMm = pointSpacingMm(world, body, optics);
+    options.seed = world.scene().quality.seed;
     report.name = body.name;
     report.areaMm2 = body.mesh.area();
     const std::size_t expected = expectedPointCount(report.areaMm2, options);
@@ -59,34 +38,42 @@ BodyCloud preprocessBody(const World& world, int bodyIndex,
                                 expected, options.spacingMm, limits.mostPoints),
                     "check the scale of the scene (metersPerUnit), raise the tolerance, set "
                     "--spacing, or raise --max-points");
-
-    Stopwatch watch;
     SurfaceSamples samples = sampleSurface(body.mesh, options);
-    report.secondsPoints = watch.lap();
     report.points = samples.size();
     report.spacingMm = std::sqrt(report.areaMm2 / static_cast<double>(samples.size()));
-    report.expectedQuadratureError = expectedQuadratureError(own, report.spacingMm);
+    report.expectedQuadratureError = expectedQuadratureError(optics, report.spacingMm);
     reporter.info("points", fmt::format("{}: {} points, spacing {:.4g} mm, expected error {:.2g} %",
                                         body.name, report.points, report.spacingMm,
                                         100 * report.expectedQuadratureError));
+    return samples;
+}
 
+std::vector<Rgb> lightPoints(const World& world, int body, const SurfaceSamples& samples,
+                             std::span<const std::unique_ptr<BodyOptics>> optics,
+                             Reporter& reporter, BodyReport& report) {
     const PathTracer tracer(world, optics, {});
-    IrradianceResult light = computeIrradiance(world, bodyIndex, samples, tracer, reporter);
-    report.secondsIrradiance = watch.lap();
+    IrradianceResult light = computeIrradiance(world, body, samples, tracer, reporter);
     report.irradianceNoise = light.pointNoise;
     report.irradianceSamples = light.samplesPerPoint;
     report.counts = light.counts;
+    report.nonFinite = light.nonFinite;
+    if (light.nonFinite > 0)
+        reporter.warn("light", fmt::format("{}: {} light samples were not finite and were left out",
+                                           report.name, light.nonFinite));
     reporter.info("light", fmt::format("{}: {} samples a point, {} rays, noise of a point at most "
-                                       "{:.2g} %", body.name, light.samplesPerPoint,
-                                       light.counts.rays, 100 * light.pointNoise));
+                                       "{:.2g} %",
+                                       report.name, light.samplesPerPoint, light.counts.rays,
+                                       100 * light.pointNoise));
+    return std::move(light.irradiance);
+}
 
+BodyCloud buildCloud(SurfaceSamples samples, std::vector<Rgb> irradiance, BodyReport& report) {
     BodyCloud cloud;
     cloud.points = std::move(samples.points);
-    cloud.irradiance = std::move(light.irradiance);
+    cloud.irradiance = std::move(irradiance);
     cloud.spacingMm = report.spacingMm;
     cloud.nodes = buildOctree({cloud.points, cloud.irradiance});
     report.nodes = cloud.nodes.size();
-    report.secondsOctree = watch.lap();
     return cloud;
 }
 

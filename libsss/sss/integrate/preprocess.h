@@ -1,5 +1,6 @@
 #pragma once
 #include "sss/base/reporter.h"
+#include "sss/cloud/surface_sampler.h"
 #include "sss/integrate/body_cloud.h"
 #include "sss/integrate/path_tracer.h"
 #include "sss/integrate/spacing.h"
@@ -25,16 +26,21 @@ struct BodyReport {
     double expectedQuadratureError = 0;  ///< RMS, relative
     double irradianceNoise = 0;          ///< of a point, relative to the mean
     int irradianceSamples = 0;           ///< per point
+    std::uint64_t nonFinite = 0;         ///< light samples dropped as NaN or infinite
     PathCounts counts;
-    double secondsPoints = 0, secondsIrradiance = 0, secondsOctree = 0;
 };
 
 /// Spacing that the points of a body get: the scene's own, or from tolerance and mean free path.
 double pointSpacingMm(const World& world, const Body& body, const BodyOptics& optics);
 
-/// Pass 1 of one body: points, irradiance, octree. Throws Error{Resource} over the limit.
-BodyCloud preprocessBody(const World& world, int body,
-                         std::span<const std::unique_ptr<BodyOptics>> optics,
-                         const PreprocessLimits& limits, Reporter& reporter, BodyReport& report);
+// Pass 1 of one body, in its three steps. Each fills its part of the report.
+
+/// Throws Error{Resource} over the limit.
+SurfaceSamples placePoints(const World& world, int body, const BodyOptics& optics,
+                           const PreprocessLimits& limits, Reporter& reporter, BodyReport& report);
+std::vector<Rgb> lightPoints(const World& world, int body, const SurfaceSamples& samples,
+                             std::span<const std::unique_ptr<BodyOptics>> optics,
+                             Reporter& reporter, BodyReport& report);
+BodyCloud buildCloud(SurfaceSamples samples, std::vector<Rgb> irradiance, BodyReport& report);
 
 }  // namespace sss

@@ -11,9 +11,6 @@
 namespace sss {
 namespace {
 
-// Beyond this many mean free paths nothing comes back: e^-16 = 1e-7.
-constexpr float kDeepest = 16.0f;
-
 struct Coefficients {
     Rgb sigmaS, sigmaT, g;
     explicit Coefficients(const Medium& medium)
@@ -74,21 +71,17 @@ struct Depth {
     Rgb weight{0.0f};  // sigma_s e^{-sigma_t s} over the density of s
 };
 
-// Distance along the refracted ray, limited to `thickness`: a channel is picked, its extinction
-// sampled, and the three ways to the same distance combined by the balance heuristic.
-Depth sampleDepth(const Coefficients& medium, float thickness, Sampler& sampler) {
+// Distance along the refracted ray: a channel is picked, its extinction sampled, and the three ways
+// to the same distance combined by the balance heuristic.
+Depth sampleDepth(const Coefficients& medium, Sampler& sampler) {
     const float pick = sampler.next1D(), u = sampler.next1D();
     const int channel = std::min(2, static_cast<int>(pick * 3.0f));
-    const auto reach = [&](int c) { return -std::expm1(-medium.sigmaT[c] * thickness); };
     Depth depth;
     if (!(medium.sigmaT[channel] > 0)) return depth;
-    depth.distance = std::min(thickness, -std::log1p(-u * reach(channel)) / medium.sigmaT[channel]);
-    float density = 0;
-    for (int c = 0; c < 3; ++c)
-        if (medium.sigmaT[c] > 0)
-            density +=
-                medium.sigmaT[c] * std::exp(-medium.sigmaT[c] * depth.distance) / reach(c) / 3.0f;
-    depth.weight = medium.sigmaS * exponential(-medium.sigmaT * depth.distance) / density;
+    depth.distance = -std::log1p(-u) / medium.sigmaT[channel];
+    const Rgb remaining = exponential(-medium.sigmaT * depth.distance);
+    const float density = meanComponent(medium.sigmaT * remaining);
+    if (density > 0) depth.weight = medium.sigmaS * remaining / density;
     return depth;
 }
 
@@ -98,6 +91,71 @@ Vec3 phaseDirection(const Vec3& axis, float g, const Vec2& u) {
     const float phi = 2.0f * kPiF * u.y;
     return Frame(axis).toWorld({sinTheta * std::cos(phi), sinTheta * std::sin(phi), cosTheta});
 }
+
+// Share of the samples that look for light by light sampling; the others sample the phase function.
+constexpr float kLightShare = 0.75f;
+
+// What a place inside sends towards the outgoing propagation direction `out`, by one of the two
+// techniques, weighted by the power heuristic for one sample.
+class InScattering {
+public:
+    InScattering(const World& world, const BodyOptics& optics, const Coefficients& medium, int body,
+                 const Vec3& place, const Vec3& out)
+        : world_(world), optics_(optics), medium_(medium), body_(body), place_(place), out_(out) {}
+
+    Rgb estimate(Sampler& sampler, const IncomingRadiance& incoming,
+                 SingleScatterCounts& counts) const {
+        const float lightShare = world_.picker().empty() ? 0.0f : kLightShare;
+        const float uTechnique = sampler.next1D(), uPick = sampler.next1D();
+        const Vec2 u = sampler.next2D();
+        if (uTechnique < lightShare) return byLight(lightShare, uPick, u, counts);
+        return byPhase(lightShare, u, incoming, counts);
+    }
+
+private:
+    float phasePdf(const Vec3& direction) const {
+        return henyeyGreenstein(-glm::dot(direction, out_), meanComponent(medium_.g));
+    }
+
+    Rgb byLight(float share, float uPick, const Vec2& u, SingleScatterCounts& counts) const {
+        const DirectSample direct = sampleDirect(world_, place_, uPick, u);
+        if (!(direct.pdf > 0)) return Rgb(0);
+        ++counts.rays;
+        const auto exit = findExit(world_, optics_, body_, place_, direct.direction);
+        if (!exit || exit->distance >= direct.distance) return Rgb(0);
+        DirectSample rest = direct;
+        rest.distance -= exit->distance;
+        ++counts.rays;
+        if (!isVisible(world_, offsetFromSurface(exit->position, exit->geometricNormal), rest))
+            return Rgb(0);
+        const float weight = direct.isDelta ? 1.0f
+                                            : powerHeuristic(share * direct.pdf,
+                                                             (1 - share) * phasePdf(direct.direction));
+        return entering(medium_, optics_, *exit, out_) * direct.radianceOverPdf * (weight / share);
+    }
+
+    Rgb byPhase(float lightShare, const Vec2& u, const IncomingRadiance& incoming,
+                SingleScatterCounts& counts) const {
+        const Vec3 direction = phaseDirection(-out_, meanComponent(medium_.g), u);
+        const float pdf = (1 - lightShare) * phasePdf(direction);
+        if (!(pdf > 0)) return Rgb(0);
+        ++counts.rays;
+        const auto exit = findExit(world_, optics_, body_, place_, direction);
+        if (!exit) return Rgb(0);
+        Ray outward;
+        outward.origin = offsetFromSurface(exit->position, exit->geometricNormal);
+        outward.direction = direction;
+        // Infinite without light sampling: nothing to share with.
+        return entering(medium_, optics_, *exit, out_) *
+               incoming(outward, place_, pdf / lightShare) / pdf;
+    }
+
+    const World& world_;
+    const BodyOptics& optics_;
+    const Coefficients& medium_;
+    int body_;
+    Vec3 place_, out_;
+};
 
 }  // namespace
 
@@ -109,57 +167,21 @@ Rgb singleScattering(const World& world, const BodyOptics& optics, const Surface
     const float cosOut = glm::dot(normal, wo);
     const float cosOutInside = refractedCosine(cosOut, optics.eta);
     if (!(cosOut > 0 && cosOutInside > 0)) return Rgb(0);
-    const Vec3 down = glm::normalize(refracted(-wo, normal, cosOut, cosOutInside, optics.eta));
-    const Vec3 inside = offsetFromSurface(hit.position, -hit.geometricNormal);
-
-    // The ray stays inside for so long; far beyond the mean free path it does not matter where it ends.
-    Ray through;
-    through.origin = inside;
-    through.direction = down;
-    const float slowest = std::min({medium.sigmaT.x, medium.sigmaT.y, medium.sigmaT.z});
-    if (slowest > 0) through.tMax = kDeepest / slowest;
-    Hit end;
-    ++counts.rays;
-    float thickness = through.tMax;
-    if (world.rays().intersect(through, end, bodyMask(hit.body))) thickness = end.t;
-    if (std::isinf(thickness)) return Rgb(0);
-    const Depth depth = sampleDepth(medium, thickness, sampler);
+    const Depth depth = sampleDepth(medium, sampler);
     if (isZero(depth.weight)) return Rgb(0);
-    const Vec3 place = inside + down * depth.distance;
 
-    const float meanG = meanComponent(medium.g);
-    const float uPick = sampler.next1D();
-    const Vec2 uLight = sampler.next2D(), uPhase = sampler.next2D();
-    Rgb gathered(0);
-    const DirectSample direct = sampleDirect(world, place, uPick, uLight);
-    if (direct.pdf > 0) {
-        ++counts.rays;
-        const auto exit = findExit(world, optics, hit.body, place, direct.direction);
-        if (exit && exit->distance < direct.distance) {
-            DirectSample rest = direct;
-            rest.distance -= exit->distance;
-            ++counts.rays;
-            if (isVisible(world, offsetFromSurface(exit->position, exit->geometricNormal), rest)) {
-                const float phasePdf =
-                    henyeyGreenstein(glm::dot(direct.direction, down), meanG);
-                const float weight = direct.isDelta ? 1.0f : powerHeuristic(direct.pdf, phasePdf);
-                gathered += entering(medium, optics, *exit, -down) * direct.radianceOverPdf * weight;
-            }
-        }
-    }
-    const Vec3 direction = phaseDirection(down, meanG, uPhase);
-    const float phasePdf = henyeyGreenstein(glm::dot(direction, down), meanG);
+    // A ray that leaves the body before it scatters brings nothing.
+    Ray inward;
+    inward.origin = offsetFromSurface(hit.position, -hit.geometricNormal);
+    inward.direction = glm::normalize(refracted(-wo, normal, cosOut, cosOutInside, optics.eta));
+    inward.tMax = depth.distance;
     ++counts.rays;
-    if (const auto exit = findExit(world, optics, hit.body, place, direction); exit && phasePdf > 0) {
-        Ray outward;
-        outward.origin = offsetFromSurface(exit->position, exit->geometricNormal);
-        outward.direction = direction;
-        ++counts.rays;
-        gathered += entering(medium, optics, *exit, -down) * incoming(outward, place, phasePdf) /
-                    phasePdf;
-    }
+    if (world.rays().occluded(inward, bodyMask(hit.body))) return Rgb(0);
+
+    const InScattering inside(world, optics, medium, hit.body, inward.at(depth.distance),
+                              -inward.direction);
     const float leaving = (1.0f - fresnelReflectance(cosOut, optics.eta)) / (optics.eta * optics.eta);
-    return gathered * depth.weight * leaving;
+    return inside.estimate(sampler, incoming, counts) * depth.weight * leaving;
 }
 
 }  // namespace sss

@@ -21,7 +21,7 @@ struct SingleScatterCounts {
 /// scattering inside it [JMLH01 section 2.3, rigorous form].
 ///
 /// A distance s is sampled along the refracted ray by its extinction; at that point in-scattered
-/// light is found by light sampling and by sampling the phase function, combined by the power
+/// light is found by light sampling or by sampling the phase function, weighted by the power
 /// heuristic. Light is taken to come in straight, and its path inside is corrected by Snell's law
 /// [JMLH01 Eq. 8], exact for a plane boundary:
 ///   L_o = F_t(w_o)/eta^2  int sigma_s e^{-sigma_t s}  int p F_t(w_i) (mu_i / mu_i') e^{-sigma_t s_i'} L_i dw_i ds

@@ -27,8 +27,8 @@ public:
     virtual bool isDelta() const { return false; }
     /// Whether its light comes from infinitely far: what a ray that leaves the scene may see.
     virtual bool isInfinite() const { return false; }
-    /// Whether directions chosen for how the receiver scatters find it better than sample() does, as
-    /// for light that comes evenly from everywhere; LightPicker then never picks it.
+    /// Whether directions chosen for how the receiver scatters find it better than sample() does,
+    /// as for light that comes evenly from everywhere; LightPicker then never picks it.
     virtual bool bestFoundByScattering() const { return false; }
     /// Radiance that leaves the light's surface, or arrives from infinity, along a ray from `from`
     /// in `direction`, and with it the pdf (sr^-1) with which sample() makes that direction. The

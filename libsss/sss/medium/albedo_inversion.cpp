@@ -129,8 +129,8 @@ Medium mediumFromPrincipled(const PrincipledSubsurface& p, double mmPerUnit,
 }
 
 double openPbrAlbedo(double color, double g) {
-    const double s = 4.09712 + 4.20863 * color -
-                     std::sqrt(9.59217 + 41.6808 * color + 17.7126 * color * color);
+    const double s =
+        4.09712 + 4.20863 * color - std::sqrt(9.59217 + 41.6808 * color + 17.7126 * color * color);
     return (1 - s * s) / (1 - g * s * s);
 }
 

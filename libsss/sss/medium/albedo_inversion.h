@@ -14,7 +14,7 @@ enum class RadiusKind {
 
 /// What an artist asks of one channel.
 struct DiffuseLook {
-    double color = 0.8;  ///< diffuse albedo per transmitted flux, in [0, 1]
+    double color = 0.8;   ///< diffuse albedo per transmitted flux, in [0, 1]
     double radiusMm = 1;  ///< > 0
     RadiusKind radiusKind = RadiusKind::TransportMfp;
     double g = 0;
@@ -22,10 +22,10 @@ struct DiffuseLook {
 };
 
 /// 1 - alpha' at which the total of the profile called `profile` is `color`, by bracketing in
-/// log((1 - alpha')/alpha') to 1e-12 of the color; 1 for color 0, 0 where color is the total without
-/// absorption. Profiles "tabulated" and "normalized_diffusion..." are inverted through the
-/// radiative-transfer total and the classic dipole's. Throws Error{BadInput} if the color is outside
-/// [0, 1] or above what the profile reaches without absorption.
+/// log((1 - alpha')/alpha') to 1e-12 of the color; 1 for color 0, 0 where color is the total
+/// without absorption. Profiles "tabulated" and "normalized_diffusion..." are inverted through the
+/// radiative-transfer total and the classic dipole's. Throws Error{BadInput} if the color is
+/// outside [0, 1] or above what the profile reaches without absorption.
 double invertReducedAbsorption(std::string_view profile, double color, double g, double eta,
                                const ProfileOptions& options = {});
 
@@ -37,11 +37,11 @@ ChannelMedium invertAlbedo(std::string_view profile, const DiffuseLook& look,
 /// Subsurface parameters of OpenPBR 1.1 (defaults are the specification's). The mean free path of a
 /// channel is subsurface_radius * subsurface_radius_scale.
 struct OpenPbrSubsurface {
-    DRgb color{0.8};                    ///< subsurface_color
-    double radius = 1;                  ///< subsurface_radius, scene units
-    DRgb radiusScale{1.0, 0.5, 0.25};   ///< subsurface_radius_scale
-    double anisotropy = 0;              ///< subsurface_scatter_anisotropy, in (-1, 1)
-    double ior = 1.5;                   ///< specular_ior
+    DRgb color{0.8};                   ///< subsurface_color
+    double radius = 1;                 ///< subsurface_radius, scene units
+    DRgb radiusScale{1.0, 0.5, 0.25};  ///< subsurface_radius_scale
+    double anisotropy = 0;             ///< subsurface_scatter_anisotropy, in (-1, 1)
+    double ior = 1.5;                  ///< specular_ior
 };
 
 /// Subsurface parameters of the Principled shader (defaults are Blender 4's). The mean free path of
@@ -54,8 +54,8 @@ struct PrincipledSubsurface {
     double ior = 1.4;            ///< subsurface_ior
 };
 
-/// As media whose totals are the colors asked for, by the profile that will render them. `mmPerUnit`
-/// is the length of a scene unit. Throw as invertAlbedo.
+/// As media whose totals are the colors asked for, by the profile that will render them.
+/// `mmPerUnit` is the length of a scene unit. Throw as invertAlbedo.
 Medium mediumFromOpenPbr(const OpenPbrSubsurface& parameters, double mmPerUnit,
                          std::string_view profile = "dipole");
 Medium mediumFromPrincipled(const PrincipledSubsurface& parameters, double mmPerUnit,

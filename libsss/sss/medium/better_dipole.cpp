@@ -12,8 +12,8 @@ BetterDipole::BetterDipole(const ChannelMedium& medium, BoundaryModel boundary)
       sigmaTPrime_(medium.sigmaTPrime()),
       strength_(medium.reducedAlbedo() * medium.reducedAlbedo()) {
     const GrosjeanMedium grosjean(medium, boundary == BoundaryModel::Polynomial
-                                               ? polynomialFresnelMoments(medium.eta)
-                                               : exactFresnelMoments(medium.eta));
+                                              ? polynomialFresnelMoments(medium.eta)
+                                              : exactFresnelMoments(medium.eta));
     sigmaTr_ = grosjean.sigmaTr;
     virtualHeight_ = 1 + grosjean.extrapolation;
     fluenceWeight_ = grosjean.fluenceWeight;

@@ -16,12 +16,12 @@ public:
 
 private:
     // In transport mean free paths.
-    double sigmaTPrime_;         ///< mm^-1
-    double strength_;            ///< alpha'^2
+    double sigmaTPrime_;  ///< mm^-1
+    double strength_;     ///< alpha'^2
     double sigmaTr_;
     double virtualHeight_;
-    double fluenceWeight_;       ///< C_phi / D
-    double fluxWeight_;          ///< C_E
+    double fluenceWeight_;  ///< C_phi / D
+    double fluxWeight_;     ///< C_E
 };
 
 }  // namespace sss

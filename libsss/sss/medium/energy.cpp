@@ -22,11 +22,11 @@ EnergyConvention energyConvention(std::string_view name) {
 double multipleScatterScale(const Profile& profile, const ChannelMedium& medium,
                             EnergyConvention convention) {
     if (convention == EnergyConvention::Jensen) return 1;
-    const double total = profile.total();
+    const double total = profile.halfSpaceTotal();
     if (!(total > 0)) return 0;
     const double all = halfSpaceTotals(medium).diffuse;
     const double once = singleScatterAlbedo(medium, Illumination::Diffuse);
-    return std::clamp((all - once) / total, 0.0, 1.0);
+    return std::max(all - once, 0.0) / total;
 }
 
 }  // namespace sss

@@ -15,14 +15,14 @@ namespace sss {
 //
 //   |            | transfer | single | dipole | better dipole | beam (multiple) |
 //   |------------|----------|--------|--------|---------------|-----------------|
-//   | Marble G   |  0.8046  | 0.0572 | 0.7911 |    0.7943     |     0.7655      |
-//   | Skimmilk G |  0.8318  | 0.0828 | 0.8131 |    0.8184     |     0.7807      |
+//   | Marble G   |  0.8050  | 0.0571 | 0.7911 |    0.7943     |     0.7655      |
+//   | Skimmilk G |  0.8318  | 0.0831 | 0.8131 |    0.8183     |     0.7807      |
 //
 // The classic dipole's alpha' holds the first event: with single scattering added it is 5.5 % too
 // bright. The better dipole's alpha'^2 claims to leave it out, but the flux that alpha' - alpha'^2
-// takes away is 0.2 % where single scattering is 6 to 8 %: 6 % too bright. The beam's kappa takes out
-// about half. So the convention does not ask what a profile claims: the shape of R_d is kept, and its
-// total is set to what is left for two and more scatterings.
+// takes away is 0.2 % where single scattering is 6 to 8 %: 6 % too bright. The beam's kappa takes
+// out about half. So the convention does not ask what a profile claims: the shape of R_d is kept,
+// and its total is set to what is left for two and more scatterings.
 
 enum class EnergyConvention {
     Consistent,  ///< diffusion + single scattering = the radiative-transfer total
@@ -32,8 +32,11 @@ enum class EnergyConvention {
 /// "consistent" or "jensen". Throws Error{BadInput} for another name.
 EnergyConvention energyConvention(std::string_view name);
 
-/// Factor in [0, 1] for the diffusion sum. Consistent: (transfer - single)/total of the profile, both
-/// for diffuse light, at most 1; Jensen: 1. 0 for a profile whose total is 0.
+/// Factor for the diffusion sum. Consistent: (transfer - single)/total of the profile in the
+/// half-space, both for diffuse light: 0.85 to 0.98 for isotropic scattering and alpha' > 0.95;
+/// above 1 where the profile is darker than the truth (forward scattering, low albedo). Jensen: 1.
+/// 0 for a profile whose total is 0. A slab's profile takes the factor of the half-space made of
+/// the same medium.
 double multipleScatterScale(const Profile& profile, const ChannelMedium& medium,
                             EnergyConvention convention = EnergyConvention::Consistent);
 

@@ -9,11 +9,11 @@ namespace sss {
 /// Quantities shared by the better dipole and photon beam diffusion, in transport mean free paths
 /// [d'Eon & Irving 2011; d'Eon 2012].
 struct GrosjeanMedium {
-    double diffusion;             ///< D, Grosjean's (2 sigma_a + sigma'_s) / (3 sigma'_t^2)
-    double sigmaTr;               ///< sqrt(sigma_a / D)
-    double fluenceWeight;         ///< C_phi / D
-    double fluxWeight;            ///< C_E
-    double extrapolation;         ///< 4 A D: z_v = z_r + this
+    double diffusion;      ///< D, Grosjean's (2 sigma_a + sigma'_s) / (3 sigma'_t^2)
+    double sigmaTr;        ///< sqrt(sigma_a / D)
+    double fluenceWeight;  ///< C_phi / D
+    double fluxWeight;     ///< C_E
+    double extrapolation;  ///< 4 A D: z_v = z_r + this
 
     GrosjeanMedium(const ChannelMedium& medium, const FresnelMoments& moments) {
         const double absorption = medium.reducedAbsorption();

@@ -12,7 +12,8 @@
 namespace sss {
 namespace {
 
-/// A direction inside, with the weight of its part of the hemisphere and the boundary's reflectance.
+/// A direction inside, with the weight of its part of the hemisphere and the boundary's
+/// reflectance.
 struct Direction {
     double cosine, weight, reflectance;
 };
@@ -22,8 +23,8 @@ constexpr double kThinLayer = 1e-8;
 /// 1 - alpha' below which the rounding of the thin layer would count as absorption.
 constexpr double kLeastAbsorption = 1e-5;
 
-/// Above the critical angle in the cosine outside, where Fresnel's formulas are smooth, and below it
-/// in the cosine inside; last comes the normal, with weight 0: light may start there.
+/// Above the critical angle in the cosine outside, where Fresnel's formulas are smooth, and below
+/// it in the cosine inside; last comes the normal, with weight 0: light may start there.
 std::vector<Direction> directionsInside(double eta) {
     std::vector<Direction> directions;
     const double critical = eta > 1 ? std::sqrt((eta - 1) * (eta + 1)) / eta : 0.0;
@@ -116,7 +117,7 @@ SmallMatrix bareReflection(const std::vector<Direction>& directions, double g, d
     }
     // The layer doubles until what it lets through no longer matters; 54 times is 2e8 mean free
     // paths, beyond which rounding gains on the remainder.
-    for (int i = 0; i < 54; ++i) {
+    for (int i = 0; i < 54 && transmit.largest() > 1e-12; ++i) {
         const SmallMatrix between = SmallMatrix::solveIdentityMinus(reflect * reflect, transmit);
         reflect += transmit * (reflect * between);
         transmit = transmit * between;
@@ -170,20 +171,20 @@ double meanPhase(double in, double out, double g, int steps) {
     return (1 - g) * (1 + g) / (4 * kPi) * sum / steps;
 }
 
-/// Directions through which light passes, graded towards grazing and the normal: Fresnel's formulas
-/// vary fast at the former for eta near 1, sharp phase functions at the latter.
-std::vector<Direction> passingDirections(double eta) {
-    constexpr std::array kEdges{0.0, 1e-4, 4e-4, 1.6e-3, 6.4e-3, 0.0256, 0.1, 0.4,
-                                0.7, 0.9,  0.97, 0.99,   0.998,  0.9996, 1.0};
+/// Directions through which light passes, graded towards grazing, where Fresnel's formulas vary
+/// fast for eta near 1, and towards the normal, where backward phase functions have their peak.
+std::vector<Direction> passingDirections(double eta, double g) {
+    std::vector<double> edges{0.0, 1e-3, 0.01, 0.1, 0.4, 1.0};
+    if (g < -0.3) edges = {0.0, 1e-3, 0.01, 0.1, 0.4, 0.7, 0.9, 0.97, 0.99, 0.998, 0.9996, 1.0};
     std::vector<Direction> directions;
-    for (std::size_t k = 0; k + 1 < kEdges.size(); ++k) {
-        const double width = kEdges[k + 1] - kEdges[k];
+    for (std::size_t k = 0; k + 1 < edges.size(); ++k) {
+        const double width = edges[k + 1] - edges[k];
         for (const GaussPoint& point : kGauss16) {
-            const double x = kEdges[k] + width * point.node;
+            const double x = edges[k] + width * point.node;
             if (eta > 1) {
                 const double mu = refractedCosine(x, eta);
-                directions.push_back({mu, width * point.weight * x / (eta * eta * mu),
-                                      fresnelReflectance(x, eta)});
+                directions.push_back(
+                    {mu, width * point.weight * x / (eta * eta * mu), fresnelReflectance(x, eta)});
             } else {
                 directions.push_back(
                     {x, width * point.weight, fresnelReflectanceFromInside(x, eta)});
@@ -217,8 +218,8 @@ HalfSpaceTotals halfSpaceTotals(const ChannelMedium& medium) {
 
 double singleScatterAlbedo(const ChannelMedium& medium, Illumination illumination) {
     if (medium.sigmaS == 0) return 0;
-    const std::vector<Direction> directions = passingDirections(medium.eta);
-    const int steps = std::clamp(static_cast<int>(10 / (1 - std::abs(medium.g))), 16, 256);
+    const std::vector<Direction> directions = passingDirections(medium.eta, medium.g);
+    const int steps = std::clamp(static_cast<int>(10 / (1 - std::abs(medium.g))), 16, 128);
     const auto outOf = [&](double in) {
         double sum = 0;
         for (const Direction& d : directions) {

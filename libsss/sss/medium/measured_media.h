@@ -12,11 +12,11 @@ namespace sss {
 /// One published measurement; coefficients in mm^-1, channels red, green, blue.
 struct MeasuredMedium {
     std::string_view name;
-    std::string_view source;  ///< the paper, and how its numbers became these
+    std::string_view source;            ///< the paper, and how its numbers became these
     std::array<double, 3> sigmaSPrime;  ///< reduced scattering
     std::array<double, 3> sigmaA;       ///< absorption
     double eta;
-    bool hasScattering;             ///< whether sigmaS and g were measured
+    bool hasScattering;            ///< whether sigmaS and g were measured
     std::array<double, 3> sigmaS;  ///< scattering; 0 unless hasScattering
     std::array<double, 3> g;
 };

@@ -37,8 +37,8 @@ double imageSeries(double period, double first, double second, const Term& term,
     double last = 0;
     for (int i = 1; i <= kImages; ++i) sum += last = pair(i);
     const double y = (2 * kImages + 1) * period;
-    const double rest = (integral(y + first) - integral(y - first)) -
-                        (integral(y + second) - integral(y - second));
+    const double rest =
+        (integral(y + first) - integral(y - first)) - (integral(y + second) - integral(y - second));
     return sum + rest / (2 * period) + (pair(kImages + 1) - last) / 24;
 }
 
@@ -60,6 +60,7 @@ Multipole::Multipole(const ChannelMedium& medium, double thicknessMm, Face face,
       sigmaTr_(std::sqrt(3 * medium.reducedAbsorption())),
       extrapolation_(2.0 / 3.0 * dipoleBoundaryFactor(medium.eta, boundary)),
       face_(face),
+      halfSpaceTotal_(Dipole(medium, boundary).total()),
       literal_(boundary == BoundaryModel::Polynomial) {
     const double thickness = thicknessMm * sigmaTPrime_;
     sourceDepth_ = literal_ ? 1.0 : std::min(1.0, thickness);
@@ -93,8 +94,8 @@ double Multipole::imageCumulative(double a) const {
 /// Amplitude of mode n: its flux through the face times its value at the source.
 double Multipole::modeWeight(int n) const {
     const double k = n * kPi / period_;
-    const double weight = k * std::cos(k * extrapolation_) *
-                          std::sin(k * (extrapolation_ + sourceDepth_));
+    const double weight =
+        k * std::cos(k * extrapolation_) * std::sin(k * (extrapolation_ + sourceDepth_));
     // On the far face cos(k (L - z_b)) = (-1)^n cos(k z_b), and the outward normal turns round.
     return face_ == Face::Far && n % 2 == 0 ? -weight : weight;
 }

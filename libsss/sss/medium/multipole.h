@@ -9,8 +9,8 @@ namespace sss {
 /// the light enters or T on the far face. Exact sums: images with the remainder integrated in
 /// closed form near the source, the modes of the slab (Bessel K) far from it.
 ///
-/// The paper puts the source one mean free path deep, which in a thinner slab is outside, and R or T
-/// may be negative. With the exact boundary the source then lies on the far face and nothing is
+/// The paper puts the source one mean free path deep, which in a thinner slab is outside, and R or
+/// T may be negative. With the exact boundary the source then lies on the far face and nothing is
 /// below 0; BoundaryModel::Polynomial keeps the paper's word.
 class Multipole final : public Profile {
 public:
@@ -23,6 +23,7 @@ public:
     double reflectance(double rMm) const override;
     double tail(double aMm) const override;
     double total() const override;
+    double halfSpaceTotal() const override { return halfSpaceTotal_; }
     void reflectance(std::span<const float> rMm, std::span<float> out) const override {
         // The table stores logarithms, and the paper's own values may be negative.
         literal_ ? Profile::reflectance(rMm, out) : reflectanceByTable(rMm, out);
@@ -37,14 +38,15 @@ private:
     double modeWeight(int n) const;
 
     // In transport mean free paths.
-    double sigmaTPrime_;    ///< mm^-1
+    double sigmaTPrime_;  ///< mm^-1
     double reducedAlbedo_;
     double sigmaTr_;
     double period_;         ///< L, the slab with both extrapolated boundaries
     double extrapolation_;  ///< z_b = 2 A D
     double sourceDepth_;
     Face face_;
-    bool literal_;  ///< the paper's source depth and signs
+    double halfSpaceTotal_;  ///< the dipole's
+    bool literal_;           ///< the paper's source depth and signs
     /// Signed heights of the image series: sum over i of f(2 i L + first) - f(2 i L + second).
     double first_, second_;
 };

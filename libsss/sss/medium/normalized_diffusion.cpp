@@ -30,7 +30,8 @@ double albedoOf(const ChannelMedium& medium, const ProfileOptions& options) {
 double normalizedDiffusionShape(NormalizedFit fit, double surfaceAlbedo) {
     const double a = surfaceAlbedo;
     switch (fit) {
-        case NormalizedFit::IdealDiffuse: return 1.9 - a + 3.5 * (a - 0.8) * (a - 0.8);
+        case NormalizedFit::IdealDiffuse:
+            return 1.9 - a + 3.5 * (a - 0.8) * (a - 0.8);
         case NormalizedFit::Perpendicular: {
             const double x = std::abs(a - 0.8);
             return 1.85 - a + 7 * x * x * x;

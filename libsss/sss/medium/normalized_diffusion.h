@@ -13,8 +13,8 @@ enum class NormalizedFit {
 /// s of the fit, for a surface albedo in [0, 1].
 double normalizedDiffusionShape(NormalizedFit fit, double surfaceAlbedo);
 
-/// Normalized diffusion [CB15]: R_d = A (e^{-r/d} + e^{-r/(3d)}) / (8 pi d r), d = l/s. Its total is
-/// A exactly; it grows like 1/r at r = 0. The mean free path is the transport one, 1/sigma'_t.
+/// Normalized diffusion [CB15]: R_d = A (e^{-r/d} + e^{-r/(3d)}) / (8 pi d r), d = l/s. Its total
+/// is A exactly; it grows like 1/r at r = 0. The mean free path is the transport one, 1/sigma'_t.
 class NormalizedDiffusion final : public Profile {
 public:
     /// `lengthMm` is the l of the fit, > 0.

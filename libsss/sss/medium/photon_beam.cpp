@@ -42,9 +42,9 @@ PhotonBeam::PhotonBeam(const ChannelMedium& medium, Part part, const ProfileOpti
       extinction_(sigmaTPrime_ > 0 ? medium.sigmaT() / sigmaTPrime_ : 1) {
     if (medium_.sigmaS == 0) return;
     const double decay = part == Part::Multiple ? grosjean_.sigmaTr : 2 * extinction_;
-    quadrature_ = std::make_unique<RadialQuadrature>(
-        [this](double r) { return reflectance(r); }, scaleMm(),
-        4 * scaleMm() / std::max(decay, 1e-300));
+    quadrature_ =
+        std::make_unique<RadialQuadrature>([this](double r) { return reflectance(r); }, scaleMm(),
+                                           4 * scaleMm() / std::max(decay, 1e-300));
     total_ = std::min(quadrature_->tail(0), 1.0);
 }
 
@@ -107,9 +107,9 @@ double PhotonBeam::single(double r) const {
     const double smallest = std::min({critical > 0 ? critical : r, r, r * eta, 1 / extinction_});
     return gradedQuadrature(0.25 * smallest, 3 / extinction_, range, [&](double y) {
         const double depth = slant(critical, y);
-        const double reflected =
-            eta > 1 ? fresnelReflectance(y / slant(y, r * eta), eta)
-                    : fresnelReflectanceFromInside(depth / slant(r, depth), eta);
+        const double reflected = eta > 1
+                                     ? fresnelReflectance(y / slant(y, r * eta), eta)
+                                     : fresnelReflectanceFromInside(depth / slant(r, depth), eta);
         return scatter * singleFromDepth(r, depth) * (1 - reflected) * (y / depth);
     });
 }

@@ -28,8 +28,8 @@ std::vector<double> ringEdges(const PhotonBeam& beam) {
     std::vector<double> edges;
     for (int i = 0;; ++i) {
         edges.push_back(kFirstRadius * std::pow(10.0, i / kRingsPerDecade));
-        if (edges.back() > 1 && (beam.tail(edges.back()) < 1e-4 * beam.total() ||
-                                 edges.back() > 300)) {
+        if (edges.back() > 1 &&
+            (beam.tail(edges.back()) < 1e-4 * beam.total() || edges.back() > 300)) {
             return edges;
         }
     }
@@ -79,8 +79,8 @@ double chiSquared(const RingData& data, const std::vector<double>& curve) {
 }
 
 std::vector<double> stiffestCurve(const RingData& data) {
-    const auto known = std::count_if(data.weight.begin(), data.weight.end(),
-                                     [](double w) { return w > 0; });
+    const auto known =
+        std::count_if(data.weight.begin(), data.weight.end(), [](double w) { return w > 0; });
     double stiffness = 1e10;
     std::vector<double> curve = smoothCurve(data, stiffness);
     while (stiffness > 1 && chiSquared(data, curve) > static_cast<double>(known)) {

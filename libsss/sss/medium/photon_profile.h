@@ -40,8 +40,8 @@ PhotonProfile simulatePhotonProfile(const PhotonProfileKey& key);
 /// $XDG_CACHE_HOME/sss/profiles or ~/.cache/sss/profiles; empty if neither variable is set.
 std::filesystem::path defaultProfileCacheFolder();
 
-/// From the cache folder if a whole and current file is there; else simulated and, if the folder can
-/// be written, kept (a folder that cannot be written costs time, nothing else).
+/// From the cache folder if a whole and current file is there; else simulated and, if the folder
+/// can be written, kept (a folder that cannot be written costs time, nothing else).
 PhotonProfile loadOrSimulatePhotonProfile(const PhotonProfileKey& key,
                                           const std::filesystem::path& cacheFolder);
 

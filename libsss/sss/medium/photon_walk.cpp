@@ -80,8 +80,8 @@ private:
             scatter();
         }
         // Russian roulette between the weight after one scattering and half of it: near albedo 1
-        // that is almost analog capture (a light photon costs as much as a heavy one), at low albedo
-        // no photon is lost before it had its chance to leave.
+        // that is almost analog capture (a light photon costs as much as a heavy one), at low
+        // albedo no photon is lost before it had its chance to leave.
         if (weight_ < 0.5 * p.albedo) {
             weight_ = rng_.uniformDouble() * p.albedo < weight_ ? p.albedo : 0.0;
         }
@@ -92,8 +92,7 @@ private:
         const double length = (face - position_.z) / direction_.z;
         position_ += length * direction_;
         position_.z = face;
-        const double reflectance =
-            fresnelReflectanceFromInside(direction_.z, walk_.problem.eta);
+        const double reflectance = fresnelReflectanceFromInside(direction_.z, walk_.problem.eta);
         const double leaves = weight_ * (1 - reflectance);
         if (face > 0) {
             (scatterings_ == 0 ? result_.unscattered : result_.transmitted) += leaves;

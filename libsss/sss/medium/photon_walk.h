@@ -10,9 +10,9 @@ namespace sss {
 /// A homogeneous half-space or slab with smooth boundaries, lit at one point; lengths in mean free
 /// paths 1/sigma_t.
 struct PhotonProblem {
-    double albedo = 1;     ///< sigma_s / sigma_t, in [0, 1]
-    double g = 0;          ///< Henyey-Greenstein, in (-1, 1)
-    double eta = 1;        ///< inside over outside, > 0; the same on both faces of a slab
+    double albedo = 1;  ///< sigma_s / sigma_t, in [0, 1]
+    double g = 0;       ///< Henyey-Greenstein, in (-1, 1)
+    double eta = 1;     ///< inside over outside, > 0; the same on both faces of a slab
     double thickness = std::numeric_limits<double>::infinity();
     Illumination illumination = Illumination::Normal;
     std::vector<double> ringEdges;  ///< ascending radii between which reflected light is counted
@@ -32,10 +32,10 @@ struct BatchMean {
 
 /// Shares of the transmitted flux.
 struct PhotonTally {
-    BatchMean reflected;       ///< leaves through the lit face, however often scattered
-    BatchMean reflectedOnce;   ///< the part scattered exactly once
-    BatchMean transmitted;     ///< leaves through the far face after scattering
-    BatchMean unscattered;     ///< leaves through the far face without
+    BatchMean reflected;      ///< leaves through the lit face, however often scattered
+    BatchMean reflectedOnce;  ///< the part scattered exactly once
+    BatchMean transmitted;    ///< leaves through the far face after scattering
+    BatchMean unscattered;    ///< leaves through the far face without
     /// Reflected within the first edge, between edges, beyond the last: size edges + 1.
     std::vector<BatchMean> rings;
     std::uint64_t photons = 0;

@@ -59,6 +59,8 @@ public:
     virtual double tail(double aMm) const = 0;
     /// Diffuse albedo R_tot in [0, 1].
     virtual double total() const = 0;
+    /// The total that the same model has for the half-space: differs from total() for a slab only.
+    virtual double halfSpaceTotal() const { return total(); }
     /// Whether R_d grows without bound (integrably, at most like 1/r) as r goes to 0.
     virtual bool singularAtZero() const { return false; }
     /// An upper bound of |d^order R_d / dr^order| over [r, infinity), mm^-(2 + order), order 1 to

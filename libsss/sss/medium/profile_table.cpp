@@ -72,8 +72,7 @@ constexpr std::array kKinds{
                 makePhotonBeam<PhotonBeam::Part::Multiple>},
     ProfileKind{"photon_beam_single", "light of that beam scattered exactly once",
                 makePhotonBeam<PhotonBeam::Part::Single>},
-    ProfileKind{"tabulated",
-                "Monte Carlo of the half-space itself, once per medium, kept on disk",
+    ProfileKind{"tabulated", "Monte Carlo of the half-space itself, once per medium, kept on disk",
                 makeTabulated},
 };
 

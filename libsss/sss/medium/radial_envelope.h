@@ -11,7 +11,8 @@ namespace sss {
 /// like 1/r^(1+k) if the function is singular at 0, else it stays.
 class RadialEnvelope {
 public:
-    RadialEnvelope(const std::function<double(double)>& function, double scale, bool singularAtZero);
+    RadialEnvelope(const std::function<double(double)>& function, double scale,
+                   bool singularAtZero);
     double bound(int order, double r) const;
 
 private:

@@ -16,8 +16,8 @@ constexpr double kFloor = -1000;
 
 /// Cubic through four values at fractions 0, 1/3, 2/3, 1, in powers of the fraction.
 std::array<double, 4> cubicThrough(double f0, double f1, double f2, double f3) {
-    return {f0, (-11 * f0 + 18 * f1 - 9 * f2 + 2 * f3) / 2,
-            9 * (2 * f0 - 5 * f1 + 4 * f2 - f3) / 2, 9 * (-f0 + 3 * f1 - 3 * f2 + f3) / 2};
+    return {f0, (-11 * f0 + 18 * f1 - 9 * f2 + 2 * f3) / 2, 9 * (2 * f0 - 5 * f1 + 4 * f2 - f3) / 2,
+            9 * (-f0 + 3 * f1 - 3 * f2 + f3) / 2};
 }
 
 double logOf(double value) { return value > 1e-300 ? std::log2(value) : kFloor; }

@@ -16,9 +16,16 @@ public:
         return m;
     }
     std::size_t size() const { return size_; }
-    double& operator()(std::size_t row, std::size_t column) { return values_[row * size_ + column]; }
+    double& operator()(std::size_t row, std::size_t column) {
+        return values_[row * size_ + column];
+    }
     double operator()(std::size_t row, std::size_t column) const {
         return values_[row * size_ + column];
+    }
+    double largest() const {
+        double most = 0;
+        for (const double value : values_) most = std::max(most, std::abs(value));
+        return most;
     }
     SmallMatrix& operator+=(const SmallMatrix& other) {
         for (std::size_t i = 0; i < values_.size(); ++i) values_[i] += other.values_[i];

@@ -17,8 +17,8 @@ double asymptoticDecay(double reducedAbsorption) {
         const double kappa = 0.5 * (lo + hi);
         // 1 - kappa/atanh(kappa), by its series where that would cancel
         const double k2 = kappa * kappa;
-        const double absorbed = kappa < 1e-3 ? k2 / 3 * (1 + k2 * 4 / 15)
-                                             : 1 - kappa / std::atanh(kappa);
+        const double absorbed =
+            kappa < 1e-3 ? k2 / 3 * (1 + k2 * 4 / 15) : 1 - kappa / std::atanh(kappa);
         (absorbed < reducedAbsorption ? lo : hi) = kappa;
     }
     return lo;
@@ -42,13 +42,12 @@ public:
         }
         const auto i = static_cast<std::ptrdiff_t>(x);
         const auto at = [&](std::ptrdiff_t k) {
-            return y[static_cast<std::size_t>(
-                std::clamp<std::ptrdiff_t>(k, 0, std::ssize(y) - 1))];
+            return y[static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(k, 0, std::ssize(y) - 1))];
         };
         const double t = x - static_cast<double>(i);
         const double a = at(i - 1), b = at(i), c = at(i + 1), d = at(i + 2);
-        const double cubic = b + 0.5 * t * (c - a + t * (2 * a - 5 * b + 4 * c - d +
-                                                         t * (3 * (b - c) + d - a)));
+        const double cubic =
+            b + 0.5 * t * (c - a + t * (2 * a - 5 * b + 4 * c - d + t * (3 * (b - c) + d - a)));
         return std::exp(cubic);
     }
 
@@ -81,10 +80,8 @@ Tabulated::Tabulated(const ChannelMedium& medium, const ProfileOptions& options)
     const double beamDecay = std::sqrt(3 * absorption / (1 + absorption));
     const RatioCurve ratio(simulated, asymptoticDecay(absorption) - beamDecay);
     table_.emplace(
-        [&](double r) {
-            return ratio(r) * (multiple.reflectance(r) + single.reflectance(r));
-        },
-        1.0, true);
+        [&](double r) { return ratio(r) * (multiple.reflectance(r) + single.reflectance(r)); }, 1.0,
+        true);
     quadrature_.emplace([this](double r) { return (*table_)(r); }, 1.0,
                         4 / std::max(beamDecay, 1e-300));
     correction_ = total_ / quadrature_->tail(0);

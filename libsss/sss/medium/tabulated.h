@@ -29,8 +29,8 @@ public:
 private:
     double sigmaTPrime_;
     double total_ = 0, totalError_ = 0;
-    double correction_ = 0;  ///< makes the profile's integral the total
-    std::optional<RadialTable> table_;            // in transport mean free paths
+    double correction_ = 0;             ///< makes the profile's integral the total
+    std::optional<RadialTable> table_;  // in transport mean free paths
     std::optional<RadialQuadrature> quadrature_;
 };
 

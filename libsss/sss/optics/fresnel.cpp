@@ -62,8 +62,12 @@ T conductor(T cosine, T eta, T k) {
 
 }  // namespace
 
-double fresnelReflectance(double cosOutside, double eta) { return dielectric(cosOutside, eta, contrastOf(eta)); }
-float fresnelReflectance(float cosOutside, float eta) { return dielectric(cosOutside, eta, contrastOf(eta)); }
+double fresnelReflectance(double cosOutside, double eta) {
+    return dielectric(cosOutside, eta, contrastOf(eta));
+}
+float fresnelReflectance(float cosOutside, float eta) {
+    return dielectric(cosOutside, eta, contrastOf(eta));
+}
 
 double fresnelReflectanceFromInside(double cosInside, double eta) {
     return dielectric(cosInside, 1 / eta, contrastOfInverse(eta));
@@ -72,8 +76,12 @@ float fresnelReflectanceFromInside(float cosInside, float eta) {
     return dielectric(cosInside, 1 / eta, contrastOfInverse(eta));
 }
 
-double refractedCosine(double cosOutside, double eta) { return refracted(cosOutside, eta, contrastOf(eta)); }
-float refractedCosine(float cosOutside, float eta) { return refracted(cosOutside, eta, contrastOf(eta)); }
+double refractedCosine(double cosOutside, double eta) {
+    return refracted(cosOutside, eta, contrastOf(eta));
+}
+float refractedCosine(float cosOutside, float eta) {
+    return refracted(cosOutside, eta, contrastOf(eta));
+}
 
 double refractedCosineFromInside(double cosInside, double eta) {
     return refracted(cosInside, 1 / eta, contrastOfInverse(eta));

@@ -92,7 +92,8 @@ struct FitStep {
     double heightMm = 1;
     DVec3 centre{0};
 };
-/// One step of an object's transform, applied in the order written: a matrix (lengths in mm), or a
+/// One step of an object's transform, applied in the order written: an affine, invertible matrix
+/// (lengths in mm; a negative determinant mirrors, which turns the winding of faces), or a
 /// fit that depends on the bounds of the mesh as transformed so far.
 using TransformStep = std::variant<DMat4, FitStep>;
 

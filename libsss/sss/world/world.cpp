@@ -144,6 +144,13 @@ void World::makeLights() {
     picker_.emplace(lights_, target.isEmpty() ? bounds_ : target);
 }
 
+void World::addGeometryTo(Hasher& hasher, std::size_t object) const {
+    const Part& part = parts_[object];
+    hasher.add(std::span<const Vec3>(part.positions));
+    hasher.add(std::span<const Vec3>(part.normals));
+    hasher.add(std::span<const UVec3>(part.faces));
+}
+
 SurfaceHit World::surfaceAt(const Hit& hit) const {
     const Part& part = parts_[hit.geometry];
     SurfaceHit surface;

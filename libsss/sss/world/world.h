@@ -1,4 +1,5 @@
 #pragma once
+#include "sss/base/hash.h"
 #include "sss/base/reporter.h"
 #include "sss/geom/ray_scene.h"
 #include "sss/light/light.h"
@@ -58,6 +59,9 @@ public:
         return emitterIndices_[static_cast<std::size_t>(object)];
     }
     const Bounds& bounds() const { return bounds_; }
+
+    /// Adds an object's surface, as it stands in the world, to a content hash.
+    void addGeometryTo(Hasher& hasher, std::size_t object) const;
 
     /// What stands where a ray hit.
     SurfaceHit surfaceAt(const Hit& hit) const;

@@ -12,8 +12,7 @@ template <typename T>
 void append(std::string& bytes, T value, bool bigEndian = false) {
     char raw[sizeof(T)];
     std::memcpy(raw, &value, sizeof(T));
-    for (std::size_t i = 0; i < sizeof(T); ++i)
-        bytes += raw[bigEndian ? sizeof(T) - 1 - i : i];
+    for (std::size_t i = 0; i < sizeof(T); ++i) bytes += raw[bigEndian ? sizeof(T) - 1 - i : i];
 }
 
 /// The corners of a tetrahedron of edge 1 at the axes, and its faces wound outward.

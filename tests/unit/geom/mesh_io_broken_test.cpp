@@ -70,21 +70,26 @@ TEST(BrokenMesh, EmptyFilesAndMeshesWithoutFaces) {
 
 TEST(BrokenMesh, NamesTheFirstBadVertexAndCountsThem) {
     const std::string face = "f 1 2 3\n";
-    expectBad("a.obj", "v 0 0 0\nv 0 nan 0\nv inf 0 1e999\n" + face, "vertex 1 (from 0) is at (0, nan, 0)");
+    expectBad("a.obj", "v 0 0 0\nv 0 nan 0\nv inf 0 1e999\n" + face,
+              "vertex 1 (from 0) is at (0, nan, 0)");
     expectBad("a.obj", "v 0 0 0\nv 0 nan 0\nv inf 0 1e999\n" + face, "2 of 3 vertices");
-    expectBad("a.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 -inf 0\n3 0 1 2\n", "vertex 2 (from 0) is at (0, -inf, 0)");
+    expectBad("a.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 -inf 0\n3 0 1 2\n",
+              "vertex 2 (from 0) is at (0, -inf, 0)");
     expectBad("a.ply", tetraPly(false, {0, NAN, 0}), "4 of 4 vertices");
     std::string stl = tetraBinaryStl();
     const float bad = INFINITY;
     std::memcpy(stl.data() + 84 + 50 + 12, &bad, 4);
     expectBad("a.stl", stl, "vertex 3 (from 0) is at (inf");
-    expectBad("a.stl", "solid\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 nan\n"
-                       "vertex 0 1 0\nendloop\nendfacet\nendsolid\n", "vertex 1 (from 0)");
+    expectBad("a.stl",
+              "solid\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 nan\n"
+              "vertex 0 1 0\nendloop\nendfacet\nendsolid\n",
+              "vertex 1 (from 0)");
 }
 
 TEST(BrokenMesh, IndicesOutOfRange) {
     const std::string points = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
-    expectBad("a.obj", points + "f 1 2 3\nf 1 2 4\n", "line 5: a face uses vertex 4, but the file has 3");
+    expectBad("a.obj", points + "f 1 2 3\nf 1 2 4\n",
+              "line 5: a face uses vertex 4, but the file has 3");
     expectBad("a.obj", points + "f -4 -2 -1\n", "index -4");
     expectBad("a.obj", points + "f 0 1 2\n", "\"0\" is no corner");
     expectBad("a.obj", points + "f 1 2 99999999999999999999\n", "is no corner");
@@ -113,7 +118,7 @@ TEST(BrokenMesh, TextThatIsNoNumberIsNeverSkipped) {
     expectBad("a.stl", "solid\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nendloop\n", "is missing");
     expectBad("a.stl", "solid\nouter loop\nvertex 0 0 0\nvertex 1 0 x\n", "\"x\"");
     expectBad("a.stl", "solid\nvertex 0 0 0\n", "outside of");
-    expectBad("a.obj", "vn 1\nv 0 0 0\n", "fewer than three numbers");
+    expectBad("a.obj", "vn 1\nv 0 0 0\n", "line 1: normal 1 has \"\"");
 }
 
 TEST(BrokenMesh, PlyHeaders) {
@@ -129,13 +134,17 @@ TEST(BrokenMesh, PlyHeaders) {
     expectBad("a.ply", header("element vertex 1\nproperty float x\n") + "1 ", "no property \"y\"");
     expectBad("a.ply", header("element face 5\n"), "has no properties");
     expectBad("a.ply", header("nonsense\n"), "unknown word \"nonsense\"");
-    expectBad("a.ply", header("element tristrips 1\nproperty list int int vertex_indices\n") + "1 0\n",
+    expectBad("a.ply",
+              header("element tristrips 1\nproperty list int int vertex_indices\n") + "1 0\n",
               "triangle strips");
-    expectBad("a.ply", header("element face 1\nproperty list uchar int vertex_indices\n") + "-1 0\n",
+    expectBad("a.ply",
+              header("element face 1\nproperty list uchar int vertex_indices\n") + "-1 0\n",
               "-1 is no length");
-    expectBad("a.ply", header("element face 1\nproperty list uchar int vertex_indices\n") + "3 0 1.5 0\n",
+    expectBad("a.ply",
+              header("element face 1\nproperty list uchar int vertex_indices\n") + "3 0 1.5 0\n",
               "1.5 is no vertex");
-    expectBad("a.ply", header("element face 1\nproperty list uchar int vertex_indices\n") + "a 0 1 0\n",
+    expectBad("a.ply",
+              header("element face 1\nproperty list uchar int vertex_indices\n") + "a 0 1 0\n",
               "\"a\" is no number");
 }
 

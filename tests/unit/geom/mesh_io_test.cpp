@@ -41,21 +41,25 @@ TEST(ReadMesh, ReadsATetrahedronInEveryFormat) {
     const MeshFile stl = readText("t.StL", tetraBinaryStl());
     expectTetra(stl);
     EXPECT_EQ(stl.report.reader.mergedVertices, 8u);
-    expectTetra(readText("t.obj",
-                         "# comment\nmtllib /dev/zero\no thing\nv 0 0 0\nv 1 0 0 1.0\nv 0 1 0 1 .5 0\n"
-                         "vt 0 0\nv 0 0 1\nusemtl x\nf 1 3 2\nf 1/1 2/1 4/1 # 3 3\r\nf 1 \\\n 4 3\n"
-                         "f -3 -2 -1\n"));
-    expectTetra(readText("t.off",
-                         "COFF # colours\n\n4 4 6\n0 0 0 255 0 0\n1 0 0 255 0 0\n# here\n0 1 0 1 1 1 1\n"
-                         "0 0 1 0 0 0\n3 0 2 1 0.5 0.5 0.5\n3 0 1 3\n3 0 3 2 7\n3 1 2 3\n"));
-    expectTetra(readText("t2.off", "OFF 4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3"));
-    expectTetra(readText("t.ply",
-                         "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\n"
-                         "property list uchar int extra\nproperty float z\nelement edge 1\n"
-                         "property int a\nelement face 4\nproperty list uchar float texcoord\n"
-                         "property list uchar uint vertex_indices\nproperty int flags\nend_header\n"
-                         "0 0 0 0\n1 0 2 5 6 0\n0 1 1 9 0\n0 0 0 1\n3\n2 0.5 0.5 3 0 2 1 0\n"
-                         "0 3 0 1 3 0\n0 3 0 3 2 0\n0 3 1 2 3 0\n"));
+    expectTetra(
+        readText("t.obj",
+                 "# comment\nmtllib /dev/zero\no thing\nv 0 0 0\nv 1 0 0 1.0\nv 0 1 0 1 .5 0\n"
+                 "vt 0 0\nv 0 0 1\nusemtl x\nf 1 3 2\nf 1/1 2/1 4/1 # 3 3\r\nf 1 \\\n 4 3\n"
+                 "f -3 -2 -1\n"));
+    expectTetra(
+        readText("t.off",
+                 "COFF # colours\n\n4 4 6\n0 0 0 255 0 0\n1 0 0 255 0 0\n# here\n0 1 0 1 1 1 1\n"
+                 "0 0 1 0 0 0\n3 0 2 1 0.5 0.5 0.5\n3 0 1 3\n3 0 3 2 7\n3 1 2 3\n"));
+    expectTetra(readText(
+        "t2.off", "OFF 4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3"));
+    expectTetra(
+        readText("t.ply",
+                 "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\n"
+                 "property list uchar int extra\nproperty float z\nelement edge 1\n"
+                 "property int a\nelement face 4\nproperty list uchar float texcoord\n"
+                 "property list uchar uint vertex_indices\nproperty int flags\nend_header\n"
+                 "0 0 0 0\n1 0 2 5 6 0\n0 1 1 9 0\n0 0 0 1\n3\n2 0.5 0.5 3 0 2 1 0\n"
+                 "0 3 0 1 3 0\n0 3 0 3 2 0\n0 3 1 2 3 0\n"));
     std::string ascii = "solid t\n";
     for (const auto& f : testing::kTetraFaces) {
         ascii += " facet normal 0 0 0\r\n  outer loop\r\n";
@@ -93,27 +97,30 @@ TEST(ReadMesh, LosesNoFaceOfANonManifoldFan) {
     EXPECT_EQ(fan.mesh.faceCount(), 3u);
     EXPECT_EQ(fan.report.nonManifoldEdges, 1u);
     // A face twice, and once more the other way round.
-    const MeshFile twice = readText("two.off", "OFF\n3 3 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n3 1 2 0\n3 0 2 1\n");
+    const MeshFile twice =
+        readText("two.off", "OFF\n3 3 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n3 1 2 0\n3 0 2 1\n");
     EXPECT_EQ(twice.mesh.faceCount(), 3u);
     EXPECT_EQ(twice.report.duplicateFaces, 2u);
 }
 
 TEST(ReadMesh, CountsWhatHasNoSurface) {
-    const MeshFile obj = readText("d.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nv 9 9 9\n"
-                                           "f 1 2 3\nf 2 2 3\nf 1 2\nf 1 2 3 1\nf 1 2 4 3\n");
+    const MeshFile obj = readText("d.obj",
+                                  "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nv 9 9 9\n"
+                                  "f 1 2 3\nf 2 2 3\nf 1 2\nf 1 2 3 1\nf 1 2 4 3\n");
     EXPECT_EQ(obj.report.reader.fileFaces, 5u);
     EXPECT_EQ(obj.report.reader.droppedFaces, 2u);
-    EXPECT_EQ(obj.report.reader.polygons, 1u);
-    EXPECT_EQ(obj.report.reader.simplifiedPolygons, 1u);
+    EXPECT_EQ(obj.report.reader.polygons, 2u);
+    EXPECT_EQ(obj.report.degenerateFaces, 1u);  // of the quad 1 2 3 1
     EXPECT_EQ(obj.report.unreferencedVertices, 1u);
-    EXPECT_EQ(obj.mesh.faceCount(), 4u);
+    EXPECT_EQ(obj.mesh.faceCount(), 5u);
 
-    const MeshFile off = readText("d.off", "OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n1 1 0\n3 0 1 2\n2 0 1\n"
-                                           "3 1 1 2\n4 0 1 3 2\n");
-    EXPECT_EQ(off.report.reader.droppedFaces, 1u);
-    EXPECT_EQ(off.report.degenerateFaces, 1u);
+    const MeshFile off = readText("d.off",
+                                  "OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n1 1 0\n3 0 1 2\n2 0 1\n"
+                                  "3 1 1 2\n4 0 1 3 2\n");
+    EXPECT_EQ(off.report.reader.droppedFaces, 2u);
+    EXPECT_EQ(off.report.degenerateFaces, 0u);
     EXPECT_EQ(off.report.reader.polygons, 1u);
-    EXPECT_EQ(off.mesh.faceCount(), 4u);
+    EXPECT_EQ(off.mesh.faceCount(), 3u);
     EXPECT_EQ(off.mesh.area(), 1.5);
 
     std::string stl = tetraBinaryStl();
@@ -145,8 +152,9 @@ TEST(ReadMesh, SplitsVerticesThatHaveSeveralNormals) {
             EXPECT_LT(glm::distance(n, Vec3(face == 0 ? h : -h, h, 0)), 1e-6f);
         }
     // Normals for a part only, or unusable ones, are ignored, and it says so.
-    for (const char* faces : {"f 1//1 2//1 3//1\nf 2 1 4\n", "vn nan nan nan\nf 1//1 2//1 3//1\nf 2//3 1//3 4//3\n",
-                              "vn 0 0 0\nf 1//3 2//1 3//1\nf 2//2 1//2 4//2\n"}) {
+    for (const char* faces :
+         {"f 1//1 2//1 3//1\nf 2 1 4\n", "vn nan nan nan\nf 1//1 2//1 3//1\nf 2//3 1//3 4//3\n",
+          "vn 0 0 0\nf 1//3 2//1 3//1\nf 2//2 1//2 4//2\n"}) {
         const MeshFile part = readText("n.obj", roof + faces);
         EXPECT_TRUE(part.mesh.normals.empty());
         EXPECT_TRUE(part.report.reader.ignoredNormals);
@@ -155,7 +163,8 @@ TEST(ReadMesh, SplitsVerticesThatHaveSeveralNormals) {
 }
 
 TEST(ReadMesh, KeepsNormalsByVertex) {
-    const MeshFile off = readText("n.off", "NOFF\n3 1 0\n0 0 0 0 0 2\n1 0 0 0 3 0\n0 1 0 4 0 0\n3 0 1 2\n");
+    const MeshFile off =
+        readText("n.off", "NOFF\n3 1 0\n0 0 0 0 0 2\n1 0 0 0 3 0\n0 1 0 4 0 0\n3 0 1 2\n");
     ASSERT_EQ(off.mesh.normals.size(), 3u);
     EXPECT_EQ(off.mesh.normals[0], (Vec3{0, 0, 1}));
     EXPECT_EQ(off.mesh.normals[1], (Vec3{0, 1, 0}));
@@ -165,13 +174,15 @@ TEST(ReadMesh, KeepsNormalsByVertex) {
         "property float nz\nproperty double x\nproperty double y\nproperty double z\n"
         "element face 1\nproperty list uchar uint vertex_indices\nend_header\n";
     // The normal of a vertex that no face uses does not matter.
-    const MeshFile ply = readText("n.ply", header + "0 0 2 0 0 0\n0 3 0 1 0 0\n4 0 0 0 1 0\n"
-                                                    "nan nan nan 5 5 5\n3 0 1 2\n");
+    const MeshFile ply = readText("n.ply", header +
+                                               "0 0 2 0 0 0\n0 3 0 1 0 0\n4 0 0 0 1 0\n"
+                                               "nan nan nan 5 5 5\n3 0 1 2\n");
     ASSERT_EQ(ply.mesh.normals.size(), 4u);
     EXPECT_EQ(ply.mesh.normals[1], (Vec3{0, 1, 0}));
     EXPECT_TRUE(ply.report.reader.hasFileNormals);
-    const MeshFile bad = readText("n.ply", header + "0 0 2 0 0 0\nnan 3 0 1 0 0\n4 0 0 0 1 0\n"
-                                                    "0 0 1 5 5 5\n3 0 1 2\n");
+    const MeshFile bad = readText("n.ply", header +
+                                               "0 0 2 0 0 0\nnan 3 0 1 0 0\n4 0 0 0 1 0\n"
+                                               "0 0 1 5 5 5\n3 0 1 2\n");
     EXPECT_TRUE(bad.mesh.normals.empty());
     EXPECT_TRUE(bad.report.reader.ignoredNormals);
 }
@@ -197,7 +208,8 @@ TEST(ReadMesh, RoundTripsAShapeAndSeesItClosed) {
 TEST(ReadMesh, PrintsNothingAndMayRunInThreads) {
     const testing::TemporaryFolder folder;
     testing::writeFile(folder / "a.ply", tetraPly());
-    testing::writeFile(folder / "b.obj", "mtllib none.mtl\nusemtl gone\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    testing::writeFile(folder / "b.obj",
+                       "mtllib none.mtl\nusemtl gone\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
     ::testing::internal::CaptureStdout();
     ::testing::internal::CaptureStderr();
     std::vector<std::thread> threads;

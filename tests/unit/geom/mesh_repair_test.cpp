@@ -51,7 +51,8 @@ TEST(RepairWinding, MendsASphereWhoseFacesAreHalfFlipped) {
 }
 
 TEST(RepairWinding, TurnsTheInnerWallOfAHollowBodyInward) {
-    const TriangleMesh outer = makeBox({4, 4, 4}), wall = makeSphere(1.5), core = makeBox({1, 1, 1});
+    const TriangleMesh outer = makeBox({4, 4, 4}), wall = makeSphere(1.5),
+                       core = makeBox({1, 1, 1});
     const double hollow = 64 - volumeOf(wall) + 1;
     for (const bool flipOuter : {false, true})
         for (const bool flipWall : {false, true}) {
@@ -139,17 +140,16 @@ TEST(RemoveUnusable, TakesOutExactlyTheUseless) {
     const std::vector<UVec3> faces = mesh.faces;
     const std::vector<Vec3> normals = mesh.normals;
     const std::vector<DVec3> positions = mesh.positions;
-    const UVec3 f = faces[3];
-    mesh.faces.insert(mesh.faces.begin(), {f.y, f.y, f.z});             // repeated corner
-    mesh.faces.push_back({f.z, f.x, f.y});                              // duplicate
-    mesh.faces.push_back({f.x, f.z, f.y});                              // duplicate, turned
-    mesh.positions.insert(mesh.positions.begin(), DVec3{100});          // stray
-    mesh.normals.insert(mesh.normals.begin(), Vec3{1, 0, 0});
-    for (UVec3& face : mesh.faces) face += UVec3{1};
-    const auto base = static_cast<std::uint32_t>(mesh.positions.size());
-    for (const double x : {5.0, 6.0, 7.0}) mesh.positions.emplace_back(x, x, x);  // collinear
-    mesh.normals.resize(mesh.positions.size(), Vec3{0, 0, 1});
-    mesh.faces.emplace_back(base, base + 1, base + 2);
+    // In front: a stray vertex, and a face that repeats a corner.
+    mesh = TriangleMesh{{DVec3{100}}, {Vec3{1, 0, 0}}, {}};
+    const UVec3 f = faces[3] + UVec3{1};
+    mesh.faces.emplace_back(f.y, f.y, f.z);
+    mesh = testing::joined(mesh, makeBox({1, 1, 1}));
+    // Behind: two duplicates, one of them turned, and a face of three points in a row.
+    mesh.faces.emplace_back(f.z, f.x, f.y);
+    mesh.faces.emplace_back(f.x, f.z, f.y);
+    const TriangleMesh line{{DVec3{5}, DVec3{6}, DVec3{7}}, {3, Vec3{0, 0, 1}}, {{0, 1, 2}}};
+    mesh = testing::joined(mesh, line);
 
     const MeshReport report = inspectMesh(mesh);
     EXPECT_EQ(report.degenerateFaces, 2u);

@@ -15,8 +15,12 @@ TriangleMesh cube() {
     TriangleMesh mesh;
     for (unsigned i = 0; i < 8; ++i)
         mesh.positions.emplace_back(i & 1u ? 1 : -1, i & 2u ? 1 : -1, i & 4u ? 1 : -1);
-    for (const auto& q : {std::array<std::uint32_t, 4>{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4},
-                          {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}}) {
+    for (const auto& q : {std::array<std::uint32_t, 4>{0, 2, 3, 1},
+                          {4, 5, 7, 6},
+                          {0, 1, 5, 4},
+                          {2, 6, 7, 3},
+                          {0, 4, 6, 2},
+                          {1, 3, 7, 5}}) {
         mesh.faces.emplace_back(q[0], q[1], q[2]);
         mesh.faces.emplace_back(q[0], q[2], q[3]);
     }
@@ -51,8 +55,7 @@ TEST(WithCreases, SplitsACubeAndKeepsItWatertight) {
     }
     const TriangleMesh smooth = withCreases(cube(), 90);
     EXPECT_EQ(smooth.positions.size(), 8u);
-    EXPECT_LT(glm::distance(DVec3(smooth.normals[0]),
-                            glm::normalize(smooth.positions[0])), 1e-7);
+    EXPECT_LT(glm::distance(DVec3(smooth.normals[0]), glm::normalize(smooth.positions[0])), 1e-7);
 }
 
 TEST(WithCreases, RestoresTheNormalsOfASphereAndACylinder) {
@@ -69,7 +72,8 @@ TEST(WithCreases, RestoresTheNormalsOfASphereAndACylinder) {
     for (FaceIndex face = 0; face < creased.faces.size(); ++face)
         for (int c = 0; c < 3; ++c)
             ASSERT_LT(glm::distance(creased.normals[creased.faces[face][c]],
-                                    cylinder.normals[cylinder.faces[face][c]]), 0.012f);
+                                    cylinder.normals[cylinder.faces[face][c]]),
+                      0.012f);
 }
 
 }  // namespace

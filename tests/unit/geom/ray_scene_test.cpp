@@ -230,7 +230,8 @@ TEST(RayScene, LeaveNeverHitsTheSphereAtAnyScale) {
             const auto leave = [&](const Ray&, const Hit& hit) {
                 return scene.leave(hit, hit.normal);
             };
-            EXPECT_EQ(selfHits(scene, {centre, radius}, 20000, leave), 0) << centre.x << " " << radius;
+            EXPECT_EQ(selfHits(scene, {centre, radius}, 20000, leave), 0)
+                << centre.x << " " << radius;
         }
 }
 
@@ -241,8 +242,8 @@ TEST(RayScene, LeaveHoldsOnALargeTiltedPlaneThroughTheOrigin) {
     const RayScene scene = sceneOf(mesh);
     Rng rng(15);
     for (int i = 0; i < 100000; ++i) {
-        const Vec3 target = Vec3{0.8f, 0, 0.6f} * (2 * rng.uniform() - 1) +
-                            Vec3{0, 2 * rng.uniform() - 1, 0};
+        const Vec3 target =
+            Vec3{0.8f, 0, 0.6f} * (2 * rng.uniform() - 1) + Vec3{0, 2 * rng.uniform() - 1, 0};
         Hit hit;
         ASSERT_TRUE(scene.intersect(towards({-50, 20, 130}, target), hit));
         Vec3 direction = randomDirection(rng);

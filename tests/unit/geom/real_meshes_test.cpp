@@ -39,7 +39,11 @@ TEST_P(RealMesh, KeepsEveryFace) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Shared, RealMesh,
-                         ::testing::Values(Expected{"igea.ply", 268686, 0, 1, true}));
+                         ::testing::Values(Expected{"igea.ply", 268686, 0, 1, true},
+                                           Expected{"spot.obj", 5856, 0, 1, true},
+                                           // 32 triangles and 468 quads
+                                           Expected{"suzanne.obj", 968, 42, 4, false},
+                                           Expected{"teapot.obj", 6320, 160, 4, false}));
 
 }  // namespace
 }  // namespace sss

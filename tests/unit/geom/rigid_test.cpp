@@ -58,8 +58,8 @@ TEST(PolarDecompose, HoldsForStronglyScaledAndMirroredMatrices) {
     for (int i = 0; i < 1000; ++i) {
         DMat3 diagonal(1.0);
         for (int c = 0; c < 3; ++c)
-            diagonal[c][c] = std::pow(10.0, 9 * rng.uniformDouble() - 4.5) *
-                             (rng.uniform() < 0.5f ? -1.0 : 1.0);
+            diagonal[c][c] =
+                std::pow(10.0, 9 * rng.uniformDouble() - 4.5) * (rng.uniform() < 0.5f ? -1.0 : 1.0);
         const DMat3 matrix = randomRotation(rng) * diagonal * randomRotation(rng);
         const PolarParts parts = polarDecompose(matrix);
         expectParts(matrix, parts);
@@ -68,8 +68,9 @@ TEST(PolarDecompose, HoldsForStronglyScaledAndMirroredMatrices) {
 }
 
 TEST(PolarDecompose, KeepsPlainScalesAndMirrorsFree) {
-    for (const DVec3 scale : {DVec3{1, 1, 1}, DVec3{-1, 1, 1}, DVec3{1, 1, -1}, DVec3{1e-9, 1e-9, 1e-9},
-                              DVec3{1e200, 1e200, 1e200}, DVec3{25.4, 25.4, -25.4}}) {
+    for (const DVec3 scale :
+         {DVec3{1, 1, 1}, DVec3{-1, 1, 1}, DVec3{1, 1, -1}, DVec3{1e-9, 1e-9, 1e-9},
+          DVec3{1e200, 1e200, 1e200}, DVec3{25.4, 25.4, -25.4}}) {
         DMat3 matrix(0.0);
         for (int c = 0; c < 3; ++c) matrix[c][c] = scale[c];
         const PolarParts parts = polarDecompose(matrix);
@@ -81,9 +82,12 @@ TEST(PolarDecompose, KeepsPlainScalesAndMirrorsFree) {
 }
 
 TEST(PolarDecompose, RefusesSingularAndBrokenMatrices) {
-    const auto flat = [](double thin) { return DMat3(DVec3{1, 0, 0}, DVec3{0, 1, 0}, DVec3{0, 0, thin}); };
+    const auto flat = [](double thin) {
+        return DMat3(DVec3{1, 0, 0}, DVec3{0, 1, 0}, DVec3{0, 0, thin});
+    };
     EXPECT_NO_THROW(polarDecompose(flat(2e-12)));
-    for (const DMat3& bad : {flat(0), flat(5e-13), DMat3(0.0), flat(std::nan("")), flat(INFINITY)}) {
+    for (const DMat3& bad :
+         {flat(0), flat(5e-13), DMat3(0.0), flat(std::nan("")), flat(INFINITY)}) {
         try {
             polarDecompose(bad);
             ADD_FAILURE() << "accepted";
@@ -97,8 +101,8 @@ TEST(RigidTransform, ComposesAndInverts) {
     Rng rng(3);
     const RigidTransform a{randomRotation(rng), {1, 2, 3}}, b{randomRotation(rng), {-4, 0.5, 9}};
     const DVec3 p{0.3, -7, 2};
-    EXPECT_LT(glm::distance(a.compose(b).transformPoint(p),
-                            a.transformPoint(b.transformPoint(p))), 1e-14);
+    EXPECT_LT(glm::distance(a.compose(b).transformPoint(p), a.transformPoint(b.transformPoint(p))),
+              1e-14);
     EXPECT_LT(glm::distance(a.inverse().transformPoint(a.transformPoint(p)), p), 1e-14);
     EXPECT_LT(glm::distance(a.transformDirection(p), a.transformPoint(p) - a.translation), 1e-14);
     EXPECT_NEAR(glm::length(a.transformDirection(p)), glm::length(p), 1e-14);

@@ -17,8 +17,8 @@ double longestEdge(const TriangleMesh& mesh) {
     double longest = 0;
     for (const UVec3& f : mesh.faces)
         for (int c = 0; c < 3; ++c)
-            longest = std::max(longest, glm::distance(mesh.positions[f[c]],
-                                                      mesh.positions[f[(c + 1) % 3]]));
+            longest = std::max(longest,
+                               glm::distance(mesh.positions[f[c]], mesh.positions[f[(c + 1) % 3]]));
     return longest;
 }
 

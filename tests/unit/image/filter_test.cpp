@@ -23,7 +23,7 @@ double secondMoment(const FilterInfo& info) {
 
 TEST(Filter, SampledMomentsAreTheFilters) {
     for (std::size_t kind = 0; kind < kFilterCount; ++kind) {
-        const FilterInfo& info = kFilters[kind];
+        const FilterInfo& info = kPixelFilters[kind];
         for (const double radius : {0.0, 2.5}) {
             const PixelFilter filter(static_cast<FilterKind>(kind), radius);
             const double expected = radius > 0 ? radius : info.defaultRadiusPixels;
@@ -50,17 +50,17 @@ TEST(Filter, SampledMomentsAreTheFilters) {
 }
 
 TEST(Filter, KnownSecondMoments) {
-    EXPECT_NEAR(secondMoment(kFilters[0]), 1.0 / 3, 1e-8);
-    EXPECT_NEAR(secondMoment(kFilters[1]), 1.0 / 6, 1e-8);
+    EXPECT_NEAR(secondMoment(kPixelFilters[0]), 1.0 / 3, 1e-8);
+    EXPECT_NEAR(secondMoment(kPixelFilters[1]), 1.0 / 6, 1e-8);
     // Integral of t^2 times the cosine series: 1/3 a0 + 2/pi^2 (a1 - a2/4 + a3/9), over a0.
     const double pi = std::acos(-1.0);
     const double series = 0.35875 / 3 - 2 / (pi * pi) * (0.48829 - 0.14128 / 4 + 0.01168 / 9);
-    EXPECT_NEAR(secondMoment(kFilters[3]), series / 0.35875, 1e-8);
+    EXPECT_NEAR(secondMoment(kPixelFilters[3]), series / 0.35875, 1e-8);
 }
 
 TEST(Filter, NamesFindTheirFilters) {
     for (std::size_t kind = 0; kind < kFilterCount; ++kind)
-        EXPECT_EQ(filterKind(kFilters[kind].name), static_cast<FilterKind>(kind));
+        EXPECT_EQ(filterKind(kPixelFilters[kind].name), static_cast<FilterKind>(kind));
     EXPECT_FALSE(filterKind("mitchell").has_value());
 }
 

@@ -65,8 +65,8 @@ ChannelMedium mediumOf(const std::string& material, const std::string& channel,
     if (p.count("sigma_a") != 0) {
         medium.g = p.count("g") != 0 ? p.at("g") : 0.0;
         medium.sigmaA = p.at("sigma_a");
-        medium.sigmaS = p.count("sigma_s") != 0 ? p.at("sigma_s")
-                                                : p.at("sigma_prime_s") / (1 - medium.g);
+        medium.sigmaS =
+            p.count("sigma_s") != 0 ? p.at("sigma_s") : p.at("sigma_prime_s") / (1 - medium.g);
         medium.eta = p.at("eta");
         return medium;
     }
@@ -102,14 +102,13 @@ constexpr double kTableResidue = 1e-24;
 
 void checkDouble(const Row& row, const Profile& profile, double peak) {
     if (std::abs(row.value) < 1e-30 * peak) return;
-    const std::string where = row.model + " " + row.material + " " + row.channel + " at r = " +
-                              std::to_string(row.r);
+    const std::string where =
+        row.model + " " + row.material + " " + row.channel + " at r = " + std::to_string(row.r);
     const double limit = tolerance(row.model);
     EXPECT_NEAR(profile.reflectance(row.r), row.value, limit * std::abs(row.value) + kTableResidue)
         << where;
     if (!std::isnan(row.tail)) {
-        EXPECT_NEAR(profile.tail(row.r), row.tail,
-                    limit * std::abs(row.tail) + kTableResidue)
+        EXPECT_NEAR(profile.tail(row.r), row.tail, limit * std::abs(row.tail) + kTableResidue)
             << where;
     }
 }
@@ -139,14 +138,14 @@ TEST(Golden, RowsKeptHere) {
          99.00990099009900990099, -7.348330430654738294723e-13, -2.511584211175451155829e-9},
         {"multipole_R", "Marble", "G", "d=0.5", 10.85338161059335259671, 1.78379633634645e-8,
          std::nan("")},
-        {"multipole_T", "Marble", "G", "d=0.5", 0.02033725555888232025514,
-         5.38740735555262031941, std::nan("")},
-        {"pbd_ms_converged", "Marble", "R", "", 0.02434514498064098197234,
-         0.7387452473610754301673, std::nan("")},
+        {"multipole_T", "Marble", "G", "d=0.5", 0.02033725555888232025514, 5.38740735555262031941,
+         std::nan("")},
+        {"pbd_ms_converged", "Marble", "R", "", 0.02434514498064098197234, 0.7387452473610754301673,
+         std::nan("")},
         {"pbd_ms_N100", "Marble", "R", "", 0.02434514498064098197234, 0.7390563596620613180721,
          std::nan("")},
-        {"pbd_ss_converged", "Marble", "R", "", 4.561835682678709912869e-5,
-         2367.528165124555087767, std::nan("")},
+        {"pbd_ss_converged", "Marble", "R", "", 4.561835682678709912869e-5, 2367.528165124555087767,
+         std::nan("")},
         {"pbd_ss_N100", "Skimmilk", "R", "", 6.171601484292926072717e-3, 5.931496369254814740079,
          std::nan("")},
     };
@@ -167,8 +166,8 @@ TEST(Golden, ProfilesOfTheSharedTable) {
     int checked = 0;
     while (std::getline(file, line)) {
         const auto f = split(line, ',');
-        const Row row{f[0], f[1], f[2], f.size() > 7 ? f[7] : "", number(f[3]), number(f[4]),
-                      number(f[6])};
+        const Row row{f[0],         f[1],         f[2],        f.size() > 7 ? f[7] : "",
+                      number(f[3]), number(f[4]), number(f[6])};
         const std::string key = f[0] + f[1] + f[2] + row.params;
         if (cases.count(key) == 0) cases[key] = {profileOf(row), std::abs(row.value)};
         checkDouble(row, *cases[key].profile, cases[key].peak);

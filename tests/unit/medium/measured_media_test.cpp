@@ -63,7 +63,9 @@ TEST(MeasuredMedia, ReducedScatteringAgreesWithScatteringAndG) {
         if (!medium.hasScattering) continue;
         for (std::size_t c = 0; c < 3; ++c) {
             const double reduced = (1 - medium.g[c]) * medium.sigmaS[c];
-            EXPECT_NEAR(reduced, medium.sigmaSPrime[c], 1e-4 * reduced) << medium.name;
+            // g is printed to three decimals, sigma_s to five.
+            EXPECT_NEAR(reduced, medium.sigmaSPrime[c], 5.1e-4 * medium.sigmaS[c] + 1e-5)
+                << medium.name;
         }
     }
 }

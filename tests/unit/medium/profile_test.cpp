@@ -97,9 +97,8 @@ TEST(Profile, TailIsTheQuadratureOfTheProfile) {
             double sum = profile->total() - profile->tail(lo);
             for (int k = 0; k < 100; ++k) {
                 const double hi = lo * 1.3;
-                sum += gauss16(lo, hi, [&](double r) {
-                    return 2 * kPi * r * profile->reflectance(r);
-                });
+                sum += gauss16(lo, hi,
+                               [&](double r) { return 2 * kPi * r * profile->reflectance(r); });
                 lo = hi;
             }
             EXPECT_NEAR(sum + profile->tail(lo), profile->total(),
@@ -140,7 +139,7 @@ TEST(Profile, ContinuousThroughMatchedIndicesAndVanishingAbsorption) {
                 return make(subject.name, medium, 6)->reflectance(r);
             };
             const double one = at(matched);
-            for (const double step : {-1e-9, 1e-9}) {
+            for (const double step : {-1e-12, 1e-12}) {
                 ChannelMedium near = matched;
                 near.eta += step;
                 EXPECT_NEAR(at(near), one, 1e-6 * one) << subject.name << " r " << r;
@@ -163,8 +162,10 @@ TEST(Profile, DerivativeBoundsHoldAndAreNear) {
             const auto f = [&](double r) { return profile->reflectance(r); };
             std::array<double, 3> largest{};  // of the derivatives from here on outwards
             double tightest = 1e300;
-            for (double x = 30; x > 1e-3; x *= 0.93) {
-                const double r = x * profile->scaleMm(), h = 2e-3 * r;
+            // Closer to the centre the differences would be rounding where the profile is flat.
+            const double closest = profile->singularAtZero() ? 1e-3 : 0.1;
+            for (double x = 30; x > closest; x *= 0.93) {
+                const double r = x * profile->scaleMm(), h = 1e-2 * r;
                 if (f(r) < 1e-25 * f(profile->scaleMm())) continue;
                 const double first = (f(r + h) - f(r - h)) / (2 * h);
                 const double second = (f(r + h) - 2 * f(r) + f(r - h)) / (h * h);
@@ -217,9 +218,8 @@ TEST(Profile, MeanOverItsOwnDisk) {
             const double radius = std::sqrt(area / kPi);
             double sum = 0;
             for (int i = 0; i < 200; ++i) {
-                sum += gauss16(radius * i / 200, radius * (i + 1) / 200, [&](double r) {
-                    return 2 * kPi * r * profile->reflectance(r);
-                });
+                sum += gauss16(radius * i / 200, radius * (i + 1) / 200,
+                               [&](double r) { return 2 * kPi * r * profile->reflectance(r); });
             }
             EXPECT_NEAR(profile->meanOverDisk(area), sum / area, 1e-6 * sum / area)
                 << name << " area " << area;

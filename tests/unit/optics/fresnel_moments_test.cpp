@@ -42,11 +42,11 @@ TEST(FresnelMoments, AgreeWithTheClosedForm) {
     // Walsh's formula for the reflectance of diffuse light from outside, n > 1.
     for (const double n : {1.3, 1.33, 1.5, 2.0, 3.0, 4.0, 5.0}) {
         const double n2 = n * n, n4 = n2 * n2;
-        const double closed =
-            0.5 + (n - 1) * (3 * n + 1) / (6 * (n + 1) * (n + 1)) +
-            n2 * (n2 - 1) * (n2 - 1) / ((n2 + 1) * (n2 + 1) * (n2 + 1)) * std::log((n - 1) / (n + 1)) -
-            2 * n2 * n * (n2 + 2 * n - 1) / ((n2 + 1) * (n4 - 1)) +
-            8 * n4 * (n4 + 1) / ((n2 + 1) * (n4 - 1) * (n4 - 1)) * std::log(n);
+        const double closed = 0.5 + (n - 1) * (3 * n + 1) / (6 * (n + 1) * (n + 1)) +
+                              n2 * (n2 - 1) * (n2 - 1) / ((n2 + 1) * (n2 + 1) * (n2 + 1)) *
+                                  std::log((n - 1) / (n + 1)) -
+                              2 * n2 * n * (n2 + 2 * n - 1) / ((n2 + 1) * (n4 - 1)) +
+                              8 * n4 * (n4 + 1) / ((n2 + 1) * (n4 - 1) * (n4 - 1)) * std::log(n);
         EXPECT_NEAR(hemisphericalTransmittance(n), 1 - closed, 2e-14);
         EXPECT_NEAR(exactFresnelMoments(n).transmittanceOut, (1 - closed) / n2, 1e-14);
         EXPECT_NEAR(exactFresnelMoments(1 / n).twoC1, closed, 1e-14);

@@ -33,8 +33,7 @@ double overCosines(double lo, double hi, const Function& f) {
 
 TEST(Phase, IntegratesToOneWithMeanCosineG) {
     for (const double g : kAsymmetries) {
-        const double total =
-            overCosines(-1, 1, [&](double c) { return henyeyGreenstein(c, g); });
+        const double total = overCosines(-1, 1, [&](double c) { return henyeyGreenstein(c, g); });
         const double mean =
             overCosines(-1, 1, [&](double c) { return c * henyeyGreenstein(c, g); });
         // The polar caps that the quadrature leaves out hold up to 1e-5 of the sharpest peak.

@@ -1,0 +1,162 @@
+#include "sss/integrate/scene_fingerprint.h"
+
+#include "sss/base/error.h"
+#include "sss/integrate/irradiance.h"
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+
+namespace sss {
+namespace {
+
+// Raised when the algorithms of pass 1 change what they make of the same input.
+constexpr std::uint64_t kPassOneVersion = 1;
+
+void add(Hasher& h, const DVec3& v) { h.add(v.x).add(v.y).add(v.z); }
+void add(Hasher& h, const Rgb& v) { add(h, DVec3(v)); }
+
+void add(Hasher& h, const TriangleMesh& mesh) {
+    h.add(std::span<const DVec3>(mesh.positions));
+    h.add(std::span<const Vec3>(mesh.normals));
+    h.add(std::span<const UVec3>(mesh.faces));
+}
+
+void add(Hasher& h, const RigidTransform& t) {
+    for (int c = 0; c < 3; ++c) add(h, t.rotation[c]);
+    add(h, t.translation);
+}
+
+void addFile(Hasher& h, const std::filesystem::path& path) {
+    std::ifstream in(path, std::ios::binary);
+    const std::string bytes((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
+    h.add(bytes);
+}
+
+// One overload a kind, as in light_table.cpp.
+struct LightHasher {
+    Hasher& h;
+    void operator()(const PointLight& l) const {
+        h.add("point");
+        add(h, l.position);
+        add(h, l.intensity);
+    }
+    void operator()(const SpotLight& l) const {
+        h.add("spot");
+        add(h, l.position);
+        add(h, l.lookAt);
+        add(h, l.intensity);
+        h.add(l.coneDegrees).add(l.penumbraDegrees);
+    }
+    void operator()(const DirectionalLight& l) const {
+        h.add("directional");
+        add(h, l.direction);
+        add(h, l.irradiance);
+    }
+    void operator()(const RectangleLight& l) const {
+        h.add("rectangle");
+        add(h, l.centre);
+        add(h, l.lookAt);
+        add(h, l.up);
+        add(h, l.radiance);
+        h.add(l.widthMm).add(l.heightMm).add(std::uint64_t{l.twoSided});
+    }
+    void operator()(const SphereLight& l) const {
+        h.add("sphere");
+        add(h, l.centre);
+        add(h, l.radiance);
+        h.add(l.radiusMm);
+    }
+    void operator()(const EnvironmentLight& l) const {
+        h.add("environment");
+        add(h, l.radiance);
+        h.add(l.rotationDegrees);
+        if (!l.map.empty()) addFile(h, l.map);
+    }
+};
+
+struct MaterialHasher {
+    Hasher& h;
+    void operator()(const TranslucentMaterial& m) const {
+        h.add("translucent");
+        add(h, m.medium.sigmaA);
+        add(h, m.medium.sigmaS);
+        add(h, m.medium.g);
+        h.add(m.medium.eta).add(m.profile);
+        h.add(static_cast<std::uint64_t>(m.profileOptions.boundary));
+        h.add(m.profileOptions.slabThicknessMm.value_or(-1.0));
+        h.add(m.profileOptions.surfaceAlbedo.value_or(-1.0));
+    }
+    void operator()(const LambertianMaterial& m) const {
+        h.add("lambertian");
+        add(h, m.reflectance);
+    }
+    void operator()(const MetalMaterial& m) const {
+        h.add("metal");
+        add(h, m.eta);
+        add(h, m.k);
+        h.add(m.roughness);
+    }
+    void operator()(const EmitterMaterial& m) const {
+        h.add("emitter");
+        add(h, m.radiance);
+        h.add(std::uint64_t{m.twoSided});
+    }
+};
+
+Fingerprint lightsOf(const World& world) {
+    Hasher h;
+    for (const LightSettings& light : world.scene().lights) std::visit(LightHasher{h}, light);
+    return h.finish();
+}
+
+// Other objects, where they stand relative to the scene, and what they are made of. The body itself
+// counts with its place only: its mesh and medium are inputs of their own.
+Fingerprint surroundingsOf(const World& world, int body) {
+    Hasher h;
+    const Body& own = world.bodies()[static_cast<std::size_t>(body)];
+    add(h, own.worldFromBody);
+    add(h, world.originMm());
+    for (std::size_t k = 0; k < world.scene().objects.size(); ++k) {
+        if (std::find(own.objects.begin(), own.objects.end(), static_cast<int>(k)) !=
+            own.objects.end())
+            continue;
+        world.addGeometryTo(h, k);
+        std::visit(MaterialHasher{h}, world.material(world.scene().objects[k].material));
+    }
+    return h.finish();
+}
+
+}  // namespace
+
+std::vector<InputFingerprint> bodyInputs(const World& world, int bodyIndex, double spacingMm) {
+    const Body& body = world.bodies()[static_cast<std::size_t>(bodyIndex)];
+    const QualitySettings& quality = world.scene().quality;
+    std::vector<InputFingerprint> inputs;
+    Hasher mesh, medium, sampling, light;
+    add(mesh, body.mesh);
+    inputs.push_back({"mesh", "the mesh (or its scale) is another", mesh.finish()});
+    MaterialHasher{medium}(world.materialOf(body));
+    inputs.push_back({"medium", "the medium of its material is another", medium.finish()});
+    sampling.add(kPassOneVersion).add(spacingMm).add(quality.seed);
+    inputs.push_back({"sampling", "spacing, tolerance or seed of the points differ",
+                      sampling.finish()});
+    inputs.push_back({"lights", "the lights are others", lightsOf(world)});
+    inputs.push_back({"surroundings", "it stands elsewhere, or other objects of the scene differ",
+                      surroundingsOf(world, bodyIndex)});
+    light.add(static_cast<std::uint64_t>(irradianceSamplesFor(quality)))
+        .add(static_cast<std::uint64_t>(quality.bounces));
+    inputs.push_back({"irradiance", "irradiance samples or bounces of the light pass differ",
+                      light.finish()});
+    return inputs;
+}
+
+Fingerprint combined(const std::vector<InputFingerprint>& inputs,
+                     const std::vector<std::string_view>& keys) {
+    Hasher h;
+    for (const InputFingerprint& input : inputs)
+        if (std::find(keys.begin(), keys.end(), input.key) != keys.end()) h.add(input.value);
+    return h.finish();
+}
+
+}  // namespace sss

@@ -1,0 +1,107 @@
+#include "options.h"
+
+#include "sss/base/error.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/core.h>
+
+#include <cmath>
+
+namespace {
+
+constexpr const char* kHelp =
+    R"(sss-preprocess {} - sample translucent objects and cache what light enters them
+
+usage: sss-preprocess [options] SCENE -o CACHE
+       sss-preprocess --info CACHE [--json]
+
+Input
+  SCENE                   scene file (JSON, see scenes/README.md)
+  --meters-per-unit M     length of a scene unit [the scene's metersPerUnit; m]
+  --info CACHE            describe a cache on standard output, and do nothing else
+  --json                  ... as JSON
+
+Quality
+  --tolerance T           relative error of diffusion [the scene's, or 0.01]
+  --spacing MM            distance between points [from tolerance and mean free path; mm]
+  --seed N                of points and light samples [the scene's, or 0]
+  --max-points N          refuse, before allocating, an object with more [20000000]
+
+Output
+  -o, --output CACHE      cache file; replaced only when the new one is whole
+  --export-ply PLY        also write the points for MeshLab or Blender
+  --stats JSON            write what the run cost
+
+Run
+  --threads N             0 = all cores [0]
+  --quiet                 only warnings
+  --strict                exit 6 if there was any warning
+  --help, --version
+
+Examples
+  sss-preprocess scenes/bunny/demo.json -o bunny.ssc
+  sss-preprocess scenes/bunny/demo.json -o fine.ssc --tolerance 0.003 --stats fine.json
+  sss-preprocess --info bunny.ssc --json
+
+Exit codes: 0 done, 1 internal error, 2 usage, 3 bad input, 4 could not read or write,
+5 out of memory or over a limit, 6 warnings under --strict, 130 or 143 interrupted
+(exit codes are those of both programs)
+)";
+
+[[noreturn]] void usage(const std::string& where, const std::string& what) {
+    throw sss::Error(sss::ErrorKind::Usage, where, what, "see sss-preprocess --help");
+}
+
+void check(const PreprocessOptions& o) {
+    if (!o.info.empty()) return;
+    if (o.json) usage("--json", "goes with --info");
+    if (o.scene.empty()) usage("SCENE", "no scene file given");
+    if (o.cache.empty()) usage("--output", "no cache file given (-o CACHE)");
+    if (o.tolerance && !(*o.tolerance > 0 && *o.tolerance <= 0.5))
+        usage("--tolerance", fmt::format("{} is not in (0, 0.5]", *o.tolerance));
+    if (o.spacingMm && !(*o.spacingMm > 0 && std::isfinite(*o.spacingMm)))
+        usage("--spacing", fmt::format("{} mm is not a positive length", *o.spacingMm));
+    if (o.metersPerUnit && !(*o.metersPerUnit > 0 && std::isfinite(*o.metersPerUnit)))
+        usage("--meters-per-unit", fmt::format("{} is not a positive length", *o.metersPerUnit));
+    if (o.maxPoints == 0) usage("--max-points", "must be at least 1");
+    if (o.threads > 1024) usage("--threads", fmt::format("{} is more than 1024", o.threads));
+}
+
+}  // namespace
+
+std::optional<PreprocessOptions> readOptions(int argc, const char* const* argv) {
+    PreprocessOptions o;
+    CLI::App app;
+    app.set_help_flag();
+    bool help = false, version = false;
+    app.add_flag("-h,--help", help);
+    app.add_flag("--version", version);
+    app.add_option("scene", o.scene);
+    app.add_option("-o,--output", o.cache);
+    app.add_option("--info", o.info);
+    app.add_flag("--json", o.json);
+    app.add_option("--export-ply", o.exportPly);
+    app.add_option("--stats", o.stats);
+    app.add_option("--spacing", o.spacingMm);
+    app.add_option("--tolerance", o.tolerance);
+    app.add_option("--meters-per-unit", o.metersPerUnit);
+    app.add_option("--seed", o.seed);
+    app.add_option("--max-points", o.maxPoints);
+    app.add_option("--threads", o.threads);
+    app.add_flag("--quiet", o.quiet);
+    app.add_flag("--strict", o.strict);
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& e) {
+        usage("command line", e.what());
+    }
+    if (help || version) {
+        if (help)
+            fmt::print(fmt::runtime(kHelp), SSS_VERSION);
+        else
+            fmt::print("sss-preprocess {}\n", SSS_VERSION);
+        return std::nullopt;
+    }
+    check(o);
+    return o;
+}

@@ -1,0 +1,164 @@
+// sss-render: pass 2. Wiring only; the work is in libsss.
+#include "options.h"
+
+#include "sss/app/pass_one.h"
+#include "sss/app/program.h"
+#include "sss/app/run_stats.h"
+#include "sss/app/terminal_reporter.h"
+#include "sss/base/atomic_file.h"
+#include "sss/base/parallel.h"
+#include "sss/image/exr_file.h"
+#include "sss/image/png_file.h"
+#include "sss/image/tone_map.h"
+#include "sss/integrate/cloud_cache.h"
+#include "sss/integrate/renderer.h"
+#include "sss/scene/scene_reader.h"
+
+#include <fmt/core.h>
+
+namespace {
+
+using namespace sss;
+
+void applyOverrides(Scene& scene, const RenderOptions& options) {
+    if (options.tolerance) scene.quality.tolerance = *options.tolerance;
+    if (options.seed) scene.quality.seed = *options.seed;
+    if (options.samples) scene.film.samples = *options.samples;
+    if (options.width) scene.film.width = *options.width;
+    if (options.height) scene.film.height = *options.height;
+}
+
+// What a body's field is summed over: a cache file's sections, or clouds made just now.
+struct Clouds {
+    std::optional<CloudCache> cache;
+    PassOne made;
+    BodyCloud::View view(std::size_t body) const {
+        return cache ? cache->view(body) : made.clouds[body].view();
+    }
+};
+
+void addMetadata(LayeredImage& image, const World& world, const Clouds& clouds,
+                 std::span<const std::unique_ptr<BodyOptics>> optics) {
+    const Scene& scene = world.scene();
+    auto& meta = image.metadata;
+    meta["Software"] = std::string("sss-render " SSS_VERSION);
+    meta["sss/version"] = std::string(SSS_VERSION);
+    meta["sss/scene"] = scene.file.filename().string();
+    meta["sss/spp"] = scene.film.samples;
+    meta["samplesPerPixel"] = scene.film.samples;
+    meta["sss/seed"] = static_cast<double>(scene.quality.seed);
+    meta["sss/metersPerUnit"] = scene.metersPerUnit;
+    meta["sss/tolerance"] = scene.quality.tolerance;
+    meta["sss/cacheHash"] = clouds.cache ? clouds.cache->fingerprint() : std::string("in memory");
+    meta["colorInteropID"] = std::string("lin_rec709_scene");
+    std::string paths;
+    for (std::size_t b = 0; b < optics.size(); ++b) {
+        const DRgb mfp = optics[b]->material.medium.meanFreePathMm();
+        paths += fmt::format("{}{} {:.4g} {:.4g} {:.4g}", b ? "; " : "", world.bodies()[b].name,
+                             mfp.x, mfp.y, mfp.z);
+    }
+    meta["sss/mfp_mm"] = paths;
+    meta["worldToCamera"] = world.camera().worldToCamera();
+    meta["worldToNDC"] = world.camera().worldToNdc();
+}
+
+void recordRender(RunStats& stats, const RenderResult& result,
+                  std::span<const std::unique_ptr<BodyField>> fields) {
+    stats.count("cameraSamples", result.counts.cameraSamples);
+    stats.count("rays", result.counts.rays);
+    stats.count("diffusionEvaluations", result.counts.diffusionLookups);
+    stats.count("singleScatteringSamples", result.counts.singleSamples);
+    stats.count("nan", result.dropped.samples);
+    ExitanceCounts total;
+    for (const auto& field : fields) {
+        const ExitanceCounts counts = field->counts();
+        total.sums.add(counts.sums);
+        total.groups += counts.groups;
+        total.sites += counts.sites;
+        total.refinements += counts.refinements;
+    }
+    stats.count("exitanceSites", total.sites);
+    stats.count("exitanceGroups", total.groups);
+    stats.count("exitanceRefinements", total.refinements);
+    stats.count("sumReceivers", total.sums.receivers);
+    stats.count("nodeInteractions", total.sums.nodeInteractions);
+    stats.count("pointInteractions", total.sums.pointInteractions);
+    stats.value("instructionSet", accumulateTarget());
+}
+
+void writePictures(const RenderOptions& options, const Scene& scene, const LayeredImage& image,
+                   Reporter& reporter) {
+    writeExr(options.output, image, {scene.film.halfPrecision});
+    std::string files = options.output.string();
+    if (!options.noPng) {
+        std::filesystem::path png = options.output;
+        png.replace_extension(".png");
+        writePng(png, toneMap(image, scene.film.exposureStops));
+        files += " and " + png.string();
+    }
+    reporter.info("image", "wrote " + files);
+}
+
+void requireWritableOutputs(const RenderOptions& options) {
+    requireWritable(options.output);
+    if (!options.stats.empty()) requireWritable(options.stats);
+    if (options.noPng) return;
+    std::filesystem::path png = options.output;
+    requireWritable(png.replace_extension(".png"));
+}
+
+int run(int argc, const char* const* argv) {
+    const auto options = readOptions(argc, argv);
+    if (!options) return 0;
+    RunStats stats("sss-render");
+    TerminalOptions terminal;
+    terminal.quiet = options->quiet;
+    TerminalReporter reporter(terminal);
+    const ThreadLimit threads(options->threads);
+    requireWritableOutputs(*options);
+
+    std::optional<World> world;
+    {
+        const auto timer = stats.seconds("scene");
+        Scene scene = readScene(options->scene, options->metersPerUnit);
+        applyOverrides(scene, *options);
+        world.emplace(scene, reporter);
+    }
+    const auto optics = makeBodyOptics(*world);
+    Clouds clouds;
+    if (!options->cache.empty()) {
+        const auto timer = stats.seconds("cache");
+        clouds.cache.emplace(options->cache, *world, optics);
+    } else {
+        clouds.made = runPassOne(*world, optics, {options->maxPoints}, reporter, stats);
+    }
+    std::vector<std::unique_ptr<BodyField>> fields;
+    RenderResult result;
+    {
+        const auto timer = stats.seconds("render");
+        for (std::size_t b = 0; b < world->bodies().size(); ++b)
+            fields.push_back(std::make_unique<BodyField>(world->bodies()[b], *optics[b],
+                                                         clouds.view(b),
+                                                         world->scene().quality.tolerance));
+        result = render(*world, optics, fields, reporter);
+    }
+    if (result.dropped.samples > 0)
+        reporter.warn("render", fmt::format("{} camera samples were not finite and were left out, the "
+                                            "first in pixel {}, {}",
+                                            result.dropped.samples, result.dropped.firstX,
+                                            result.dropped.firstY));
+    addMetadata(result.image, *world, clouds, optics);
+    {
+        const auto timer = stats.seconds("write");
+        writePictures(*options, world->scene(), result.image, reporter);
+    }
+    recordRender(stats, result, fields);
+    stats.value("threads", ThreadLimit::current());
+    if (!options->stats.empty()) stats.writeStats(options->stats);
+    if (options->strict) reporter.requireNoWarnings();
+    return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) { return sss::runProgram("sss-render", argc, argv, run); }

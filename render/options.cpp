@@ -1,0 +1,122 @@
+#include "options.h"
+
+#include "sss/base/error.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/core.h>
+
+#include <cmath>
+#include <cstdio>
+
+namespace {
+
+constexpr const char* kHelp = R"(sss-render {} - path-trace a scene with translucent objects
+
+usage: sss-render [options] SCENE -o OUT.exr
+
+Input
+  SCENE                   scene file (JSON, see scenes/README.md)
+  --cache CACHE           made by sss-preprocess from this scene [made in memory]
+  --meters-per-unit M     length of a scene unit [the scene's metersPerUnit; m]
+
+Quality
+  --samples N             per pixel [the scene's, or 64]
+  --size WxH              of the picture [the scene's, or 512x512; pixels]
+  --tolerance T           relative error of diffusion [the scene's, or 0.01]
+  --seed N                of all random numbers [the scene's, or 0]
+  --max-points N          without --cache: refuse an object with more [20000000]
+
+Output
+  -o, --output OUT.exr    layered OpenEXR; a tone-mapped OUT.png is written beside it
+  --no-png                ... or not
+  --stats JSON            write what the run cost
+
+Run
+  --threads N             0 = all cores [0]
+  --quiet                 only warnings
+  --strict                exit 6 if there was any warning
+  --help, --version
+
+Examples
+  sss-render scenes/bunny/demo.json -o bunny.exr
+  sss-render scenes/bunny/demo.json --cache bunny.ssc -o bunny.exr --stats bunny.json
+  sss-render scenes/still-life/still-life.json -o small.exr --size 256x256 --samples 16
+
+Exit codes: 0 done, 1 internal error, 2 usage, 3 bad input, 4 could not read or write,
+5 out of memory or over a limit, 6 warnings under --strict, 130 or 143 interrupted
+(exit codes are those of both programs)
+)";
+
+constexpr int kMostPixelsPerSide = 65536;
+
+[[noreturn]] void usage(const std::string& where, const std::string& what) {
+    throw sss::Error(sss::ErrorKind::Usage, where, what, "see sss-render --help");
+}
+
+void readSize(const std::string& text, RenderOptions& o) {
+    if (text.empty()) return;
+    int width = 0, height = 0, used = 0;
+    const bool read = std::sscanf(text.c_str(), "%dx%d%n", &width, &height, &used) == 2 &&
+                      static_cast<std::size_t>(used) == text.size();
+    if (!read || width < 1 || height < 1 || width > kMostPixelsPerSide ||
+        height > kMostPixelsPerSide)
+        usage("--size", fmt::format("\"{}\" is not WIDTHxHEIGHT in pixels, 1 to 65536", text));
+    o.width = width;
+    o.height = height;
+}
+
+void check(const RenderOptions& o) {
+    if (o.scene.empty()) usage("SCENE", "no scene file given");
+    if (o.output.empty()) usage("--output", "no picture given (-o OUT.exr)");
+    if (o.output.extension() != ".exr")
+        usage("--output", fmt::format("{} does not end in .exr", o.output.string()));
+    if (o.samples && (*o.samples < 1 || *o.samples > 1 << 20))
+        usage("--samples", fmt::format("{} is not in 1 to 1048576", *o.samples));
+    if (o.tolerance && !(*o.tolerance > 0 && *o.tolerance <= 0.5))
+        usage("--tolerance", fmt::format("{} is not in (0, 0.5]", *o.tolerance));
+    if (o.metersPerUnit && !(*o.metersPerUnit > 0 && std::isfinite(*o.metersPerUnit)))
+        usage("--meters-per-unit", fmt::format("{} is not a positive length", *o.metersPerUnit));
+    if (o.maxPoints == 0) usage("--max-points", "must be at least 1");
+    if (o.threads > 1024) usage("--threads", fmt::format("{} is more than 1024", o.threads));
+}
+
+}  // namespace
+
+std::optional<RenderOptions> readOptions(int argc, const char* const* argv) {
+    RenderOptions o;
+    CLI::App app;
+    app.set_help_flag();
+    bool help = false, version = false;
+    std::string size;
+    app.add_flag("-h,--help", help);
+    app.add_flag("--version", version);
+    app.add_option("scene", o.scene);
+    app.add_option("--cache", o.cache);
+    app.add_option("-o,--output", o.output);
+    app.add_option("--stats", o.stats);
+    app.add_option("--samples", o.samples);
+    app.add_option("--size", size);
+    app.add_option("--tolerance", o.tolerance);
+    app.add_option("--meters-per-unit", o.metersPerUnit);
+    app.add_option("--seed", o.seed);
+    app.add_option("--max-points", o.maxPoints);
+    app.add_option("--threads", o.threads);
+    app.add_flag("--no-png", o.noPng);
+    app.add_flag("--quiet", o.quiet);
+    app.add_flag("--strict", o.strict);
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& e) {
+        usage("command line", e.what());
+    }
+    if (help || version) {
+        if (help)
+            fmt::print(fmt::runtime(kHelp), SSS_VERSION);
+        else
+            fmt::print("sss-render {}\n", SSS_VERSION);
+        return std::nullopt;
+    }
+    readSize(size, o);
+    check(o);
+    return o;
+}

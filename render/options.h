@@ -1,0 +1,26 @@
+#pragma once
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+struct RenderOptions {
+    std::filesystem::path scene;
+    std::filesystem::path cache;      ///< empty = made in memory
+    std::filesystem::path output;
+    std::filesystem::path stats;
+    std::optional<int> samples;
+    std::optional<int> width, height;
+    std::optional<double> tolerance;
+    std::optional<double> metersPerUnit;
+    std::optional<std::uint64_t> seed;
+    std::uint64_t maxPoints = 20'000'000;
+    unsigned threads = 0;             ///< 0 = all cores
+    bool noPng = false;
+    bool quiet = false;
+    bool strict = false;
+};
+
+/// Reads the command line. nullopt = --help or --version was printed: leave with 0. Throws
+/// sss::Error{Usage}.
+std::optional<RenderOptions> readOptions(int argc, const char* const* argv);
