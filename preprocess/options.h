@@ -1,4 +1,6 @@
 #pragma once
+#include "sss/medium/profile.h"
+
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -12,6 +14,7 @@ struct PreprocessOptions {
     std::optional<double> spacingMm;
     std::optional<double> tolerance;
     std::optional<double> metersPerUnit;
+    std::optional<sss::BoundaryModel> boundary;
     std::optional<std::uint64_t> seed;
     std::uint64_t maxPoints = 20'000'000;
     unsigned threads = 0;             ///< 0 = all cores

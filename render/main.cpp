@@ -1,5 +1,7 @@
 // sss-render: pass 2. Wiring only; the work is in libsss.
+#include "list_materials.h"
 #include "options.h"
+#include "print_profile.h"
 
 #include "sss/app/pass_one.h"
 #include "sss/app/program.h"
@@ -12,6 +14,7 @@
 #include "sss/image/tone_map.h"
 #include "sss/integrate/cloud_cache.h"
 #include "sss/integrate/renderer.h"
+#include "sss/scene/boundary_override.h"
 #include "sss/scene/scene_reader.h"
 
 #include <fmt/core.h>
@@ -26,6 +29,7 @@ void applyOverrides(Scene& scene, const RenderOptions& options) {
     if (options.samples) scene.film.samples = *options.samples;
     if (options.width) scene.film.width = *options.width;
     if (options.height) scene.film.height = *options.height;
+    if (options.profile.boundary) setBoundary(scene, *options.profile.boundary);
 }
 
 // What a body's field is summed over: a cache file's sections, or clouds made just now.
@@ -110,6 +114,14 @@ void requireWritableOutputs(const RenderOptions& options) {
 int run(int argc, const char* const* argv) {
     const auto options = readOptions(argc, argv);
     if (!options) return 0;
+    if (options->listMaterials) {
+        listMaterials(options->json);
+        return 0;
+    }
+    if (!options->profile.material.empty()) {
+        printProfile(options->profile, options->metersPerUnit);
+        return 0;
+    }
     RunStats stats("sss-render");
     TerminalOptions terminal;
     terminal.quiet = options->quiet;

@@ -1,18 +1,22 @@
 #include "options.h"
 
 #include "sss/base/error.h"
+#include "sss/scene/boundary_override.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/core.h>
 
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 
 namespace {
 
 constexpr const char* kHelp = R"(sss-render {} - path-trace a scene with translucent objects
 
 usage: sss-render [options] SCENE -o OUT.exr
+       sss-render --list-materials [--json]
+       sss-render --profile MATERIAL [--model NAME] [--csv] [--radii R1,R2,...]
 
 Input
   SCENE                   scene file (JSON, see scenes/README.md)
@@ -25,6 +29,21 @@ Quality
   --tolerance T           relative error of diffusion [the scene's, or 0.01]
   --seed N                of all random numbers [the scene's, or 0]
   --max-points N          without --cache: refuse an object with more [20000000]
+
+  --boundary KIND         exact, or polynomial: the papers' Fresnel fits, for all
+                          translucent materials [the scene's, or exact]
+
+Materials (these print to standard output and need no scene)
+  --list-materials        all measured media, with paper and warnings
+  --json                  ... as JSON, coefficients in mm^-1
+  --profile MATERIAL      a diffusion profile by radius: a measured medium, or a scene's
+                          material as FILE:NAME, or numbers with one value or R/G/B each:
+                          sigma_a and sigma_s or sigma_s_prime (mm^-1), or color and mfp or
+                          dmfp (mm); g [0], eta [1.3]
+  --model NAME            of the profile [the scene material's, or dipole]
+  --radii R1,R2,...       [1e-3 to 1e2 mean free paths; mm]
+  --thickness MM          of the slab, for the multipole models [the scene's; mm]
+  --csv                   commas instead of columns
 
 Output
   -o, --output OUT.exr    layered OpenEXR; a tone-mapped OUT.png is written beside it
@@ -41,6 +60,8 @@ Examples
   sss-render scenes/bunny/demo.json -o bunny.exr
   sss-render scenes/bunny/demo.json --cache bunny.ssc -o bunny.exr --stats bunny.json
   sss-render scenes/still-life/still-life.json -o small.exr --size 256x256 --samples 16
+  sss-render --profile Marble --model better_dipole --csv > marble.csv
+  sss-render --profile sigma_a=0.002/0.004/0.007,sigma_s_prime=2.6,eta=1.5 --radii 0,0.1,1
 
 Exit codes: 0 done, 1 internal error, 2 usage, 3 bad input, 4 could not read or write,
 5 out of memory or over a limit, 6 warnings under --strict, 130 or 143 interrupted
@@ -65,6 +86,41 @@ void readSize(const std::string& text, RenderOptions& o) {
     o.height = height;
 }
 
+std::vector<double> readRadii(const std::string& text) {
+    std::vector<double> radii;
+    const char* at = text.c_str();
+    while (true) {
+        char* end = nullptr;
+        const double r = std::strtod(at, &end);
+        if (end == at || (*end != ',' && *end != '\0') || !(r >= 0 && std::isfinite(r)))
+            usage("--radii", fmt::format("\"{}\" is not a list R1,R2,... of radii in mm", text));
+        radii.push_back(r);
+        if (*end == '\0') return radii;
+        at = end + 1;
+    }
+}
+
+// The options that print about materials, which take no scene.
+void checkMaterials(const RenderOptions& o, bool radiiGiven) {
+    const bool profile = !o.profile.material.empty();
+    if (o.json && !o.listMaterials) usage("--json", "belongs to --list-materials");
+    if (!profile) {
+        if (!o.profile.model.empty()) usage("--model", "belongs to --profile");
+        if (o.profile.csv) usage("--csv", "belongs to --profile");
+        if (radiiGiven) usage("--radii", "belongs to --profile");
+        if (o.profile.thicknessMm) usage("--thickness", "belongs to --profile");
+    }
+    if (profile && o.listMaterials) usage("--profile", "and --list-materials do not go together");
+    if ((profile || o.listMaterials) && !o.scene.empty())
+        usage("SCENE", fmt::format("{} is not needed with {}", o.scene.string(),
+                                   profile ? "--profile" : "--list-materials"));
+    const auto thickness = o.profile.thicknessMm;
+    if (thickness && !(*thickness > 0 && std::isfinite(*thickness)))
+        usage("--thickness", fmt::format("{} is not a positive length", *thickness));
+    if (o.metersPerUnit && !(*o.metersPerUnit > 0 && std::isfinite(*o.metersPerUnit)))
+        usage("--meters-per-unit", fmt::format("{} is not a positive length", *o.metersPerUnit));
+}
+
 void check(const RenderOptions& o) {
     if (o.scene.empty()) usage("SCENE", "no scene file given");
     if (o.output.empty()) usage("--output", "no picture given (-o OUT.exr)");
@@ -74,8 +130,6 @@ void check(const RenderOptions& o) {
         usage("--samples", fmt::format("{} is not in 1 to 1048576", *o.samples));
     if (o.tolerance && !(*o.tolerance > 0 && *o.tolerance <= 0.5))
         usage("--tolerance", fmt::format("{} is not in (0, 0.5]", *o.tolerance));
-    if (o.metersPerUnit && !(*o.metersPerUnit > 0 && std::isfinite(*o.metersPerUnit)))
-        usage("--meters-per-unit", fmt::format("{} is not a positive length", *o.metersPerUnit));
     if (o.maxPoints == 0) usage("--max-points", "must be at least 1");
     if (o.threads > 1024) usage("--threads", fmt::format("{} is more than 1024", o.threads));
 }
@@ -87,7 +141,7 @@ std::optional<RenderOptions> readOptions(int argc, const char* const* argv) {
     CLI::App app;
     app.set_help_flag();
     bool help = false, version = false;
-    std::string size;
+    std::string size, radii, boundary;
     app.add_flag("-h,--help", help);
     app.add_flag("--version", version);
     app.add_option("scene", o.scene);
@@ -98,9 +152,17 @@ std::optional<RenderOptions> readOptions(int argc, const char* const* argv) {
     app.add_option("--size", size);
     app.add_option("--tolerance", o.tolerance);
     app.add_option("--meters-per-unit", o.metersPerUnit);
-    app.add_option("--seed", o.seed);
-    app.add_option("--max-points", o.maxPoints);
-    app.add_option("--threads", o.threads);
+    app.add_option("--seed", o.seed)->check(CLI::NonNegativeNumber);
+    app.add_option("--max-points", o.maxPoints)->check(CLI::NonNegativeNumber);
+    app.add_option("--threads", o.threads)->check(CLI::NonNegativeNumber);
+    app.add_option("--boundary", boundary);
+    app.add_flag("--list-materials", o.listMaterials);
+    app.add_flag("--json", o.json);
+    app.add_option("--profile", o.profile.material);
+    app.add_option("--model", o.profile.model);
+    const auto* radiiOption = app.add_option("--radii", radii);
+    app.add_option("--thickness", o.profile.thicknessMm);
+    app.add_flag("--csv", o.profile.csv);
     app.add_flag("--no-png", o.noPng);
     app.add_flag("--quiet", o.quiet);
     app.add_flag("--strict", o.strict);
@@ -117,6 +179,9 @@ std::optional<RenderOptions> readOptions(int argc, const char* const* argv) {
         return std::nullopt;
     }
     readSize(size, o);
-    check(o);
+    if (!boundary.empty()) o.profile.boundary = sss::boundaryModel(boundary, "--boundary");
+    if (!radii.empty()) o.profile.radiiMm = readRadii(radii);
+    checkMaterials(o, radiiOption->count() > 0);
+    if (o.profile.material.empty() && !o.listMaterials) check(o);
     return o;
 }

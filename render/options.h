@@ -1,4 +1,6 @@
 #pragma once
+#include "material_argument.h"
+
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -16,6 +18,9 @@ struct RenderOptions {
     std::optional<std::uint64_t> seed;
     std::uint64_t maxPoints = 20'000'000;
     unsigned threads = 0;             ///< 0 = all cores
+    ProfileRequest profile;           ///< its boundary holds for the scene's materials, too
+    bool listMaterials = false;
+    bool json = false;
     bool noPng = false;
     bool quiet = false;
     bool strict = false;

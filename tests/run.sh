@@ -39,7 +39,7 @@ run_ctest() {
 }
 
 build_and_test() {
-    sss_build "$1" && run_ctest "$@"
+    sss_build "$@" && run_ctest "$1"
 }
 
 check_format() {
@@ -55,7 +55,7 @@ if ! $quick; then
     step "clang-format" check_format
     step "clang-tidy" /usr/bin/python3 "$SSS_ROOT/tests/tidy.py" "$SSS_ROOT" "$SSS_ROOT/build/release"
     step "address sanitizer" build_and_test asan
-    step "thread sanitizer" build_and_test tsan
+    step "thread sanitizer" build_and_test tsan parallel_tests
 fi
 
 echo "== summary"

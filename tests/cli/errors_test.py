@@ -167,11 +167,15 @@ class Outputs(CliTest):
         self.scene = self.write_scene()
 
     def test_unwritable_places(self):
-        (self.folder / "folder").mkdir()
-        for place in ("none/out.exr", "folder", "/dev/null", "scene.json/out"):
+        (self.folder / "folder.exr").mkdir()
+        (self.folder / "device.exr").symlink_to("/dev/null")
+        for place in ("none/out.exr", "folder.exr", "device.exr", "scene.json/out.exr"):
             with self.subTest(place=place):
                 self.assert_refused(IO, "cannot", self.preprocess, self.scene, "-o", place)
                 self.assert_refused(IO, "cannot", self.render, self.scene, "-o", place)
+
+    def test_a_picture_is_called_exr(self):
+        self.assert_refused(USAGE, r"out\.jpg.*\.exr", self.render, self.scene, "-o", "out.jpg")
 
     def test_unwritable_extras(self):
         self.assert_refused(IO, "none/p.ply", self.preprocess, self.scene, "-o", "out.ssc",

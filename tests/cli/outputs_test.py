@@ -105,8 +105,12 @@ class Preprocess(CliTest):
             self.assert_ok(self.preprocess(self.scene, "-o", "out.ssc", "--spacing", spacing,
                                            "--stats", "stats.json"))
             stats = json.loads((self.folder / "stats.json").read_text())
-            self.assertAlmostEqual(stats["values"]["spacingMm"], float(spacing), delta=1e-6)
-            counts.append(stats["counts"]["points"])
+            # The spacing of so many points, and as many points as the spacing asks for.
+            area, points = stats["values"]["bodies"][0]["areaMm2"], stats["counts"]["points"]
+            self.assertAlmostEqual(stats["values"]["spacingMm"], math.sqrt(area / points),
+                                   delta=1e-9)
+            self.assertAlmostEqual(points, area / float(spacing) ** 2, delta=1)
+            counts.append(points)
         self.assertAlmostEqual(counts[1] / counts[0], 4, delta=0.6)
 
     def test_quiet_says_nothing(self):

@@ -7,9 +7,11 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
 #include <fstream>
 #include <iterator>
+#include <system_error>
 #include <unordered_set>
 
 namespace sss {
@@ -254,9 +256,13 @@ JsonValue parseJson(std::string_view text, const std::string& fileName) {
 JsonValue readJsonFile(const std::filesystem::path& file) {
     const std::string name = file.string();
     std::error_code ignored;
+    errno = 0;
     std::ifstream stream(file, std::ios::binary);
-    if (!stream || std::filesystem::is_directory(file, ignored)) {
-        throw Error(ErrorKind::Io, name, "the file cannot be opened",
+    const int reason = std::filesystem::is_directory(file, ignored) ? EISDIR : errno;
+    if (!stream || reason == EISDIR) {
+        throw Error(ErrorKind::Io, name,
+                    fmt::format("the file cannot be opened: {}",
+                                std::generic_category().message(reason)),
                     "check its name and that it may be read");
     }
     std::string text;

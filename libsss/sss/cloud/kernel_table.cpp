@@ -25,31 +25,57 @@ double arcInsideDisk(double s, double r, double a) {
     return 2.0 * std::acos(std::clamp((r * r + s * s - a * a) / (2.0 * r * s), -1.0, 1.0));
 }
 
-// Mean over the disk of (strength / s) fade(s / (4 a)), s the distance from a point at r from its
-// centre: (1 / (pi a^2)) integral of strength fade(s / (4a)) arc(s) ds.
-double averagedSingularity(double strength, double r, double a) {
-    const auto integrand = [&](double s) { return fade(s / (4.0 * a)) * arcInsideDisk(s, r, a); };
+// How a profile grows at r = 0: inverse / r + logarithm log(4 a / r), a the radius of the cell.
+// Beam diffusion has only the logarithm, the other singular profiles both or only the first.
+struct Singularity {
+    double inverse = 0, logarithm = 0;
+    double cellRadius = 1;
+    // Windowed to 4 cell radii, times s: without the infinity at 0.
+    double timesRadius(double s) const {
+        const double x = s / (4.0 * cellRadius);
+        return x > 0.0 ? (inverse - logarithm * s * std::log(x)) * fade(x) : inverse;
+    }
+};
+
+// Where the profile is so near r = 0 that only its singularity varies.
+double innermost(const Profile& profile, double cellRadius) {
+    return 1e-4 * std::min(cellRadius, profile.scaleMm());
+}
+
+// From three radii near 0, a constant besides eliminated.
+Singularity singularityOf(const Profile& profile, double a) {
+    const double r1 = innermost(profile, a), r2 = 10.0 * r1, r3 = 100.0 * r1;
+    const double last = profile.reflectance(r3);
+    const double d1 = profile.reflectance(r1) - last, d2 = profile.reflectance(r2) - last;
+    const double i1 = 1.0 / r1 - 1.0 / r3, i2 = 1.0 / r2 - 1.0 / r3;
+    const double l1 = std::log(r3 / r1), l2 = std::log(r3 / r2);
+    const double determinant = i1 * l2 - i2 * l1;
+    return {(d1 * l2 - d2 * l1) / determinant, (i1 * d2 - i2 * d1) / determinant, a};
+}
+
+// Mean of the windowed singularity over a disk of radius a at distance r from its point:
+// (1 / (pi a^2)) integral of S(s) s arc(s) ds.
+double averaged(const Singularity& singularity, double r) {
+    const double a = singularity.cellRadius;
     const double inner = std::abs(a - r), outer = a + r;
     double sum = 0;
     if (r < a) {
-        constexpr int kSteps = 16;  // smooth: fade only
-        for (int i = 0; i < kSteps; ++i)
-            sum += integrand((i + 0.5) / kSteps * inner) * inner / kSteps;
+        constexpr int kSteps = 24;  // whole circles; s = inner t^2 tames s log s
+        for (int i = 0; i < kSteps; ++i) {
+            const double t = (i + 0.5) / kSteps;
+            sum += singularity.timesRadius(inner * t * t) * 2.0 * kPi * 2.0 * inner * t / kSteps;
+        }
     }
     // The arc has square-root ends: s = mid - half cos(phi) makes the integrand smooth.
     constexpr int kSteps = 48;
     const double mid = 0.5 * (inner + outer), half = 0.5 * (outer - inner);
     for (int i = 0; i < kSteps; ++i) {
         const double phi = (i + 0.5) / kSteps * kPi;
-        sum += integrand(mid - half * std::cos(phi)) * half * std::sin(phi) * kPi / kSteps;
+        const double s = mid - half * std::cos(phi);
+        sum += singularity.timesRadius(s) * arcInsideDisk(s, r, a) * half * std::sin(phi) * kPi /
+               kSteps;
     }
-    return strength * sum / (kPi * a * a);
-}
-
-// lim r R_d(r) as r goes to 0, where the profile is singular.
-double singularStrength(const Profile& profile, double a) {
-    const double r = a * 1e-6;
-    return r * profile.reflectance(r);
+    return sum / (kPi * a * a);
 }
 
 }  // namespace
@@ -58,10 +84,10 @@ double regularisedReflectance(const Profile& profile, double rMm, double cellRad
     if (!profile.singularAtZero()) return profile.reflectance(rMm);
     const double a = cellRadiusMm;
     if (rMm >= 5.0 * a) return profile.reflectance(rMm);
-    const double strength = singularStrength(profile, a);
-    const double r = std::max(rMm, a * 1e-6);
-    const double smooth = profile.reflectance(r) - strength / r * fade(r / (4.0 * a));
-    return std::max(0.0, smooth + averagedSingularity(strength, rMm, a));
+    const Singularity singularity = singularityOf(profile, a);
+    const double r = std::max(rMm, innermost(profile, a));
+    const double smooth = profile.reflectance(r) - singularity.timesRadius(r) / r;
+    return std::max(0.0, smooth + averaged(singularity, rMm));
 }
 
 KernelTable::KernelTable(const std::array<const Profile*, 3>& profiles, double reachMm,
@@ -102,8 +128,8 @@ namespace {
 double edgeOf(std::int32_t absoluteRow, double t) {
     const auto bits = static_cast<std::uint32_t>(absoluteRow) << KernelTable::kShift;
     const double lo = std::bit_cast<float>(bits);
-    const double hi = std::bit_cast<float>(
-        (static_cast<std::uint32_t>(absoluteRow) + 1u) << KernelTable::kShift);
+    const double hi =
+        std::bit_cast<float>((static_cast<std::uint32_t>(absoluteRow) + 1u) << KernelTable::kShift);
     return lo + t * (hi - lo);
 }
 
@@ -173,9 +199,9 @@ void KernelTable::boundDerivatives(const std::array<const Profile*, 3>& profiles
                     const double h = 4e-3 * std::sqrt(u);
                     std::array<double, 5> f;
                     for (int k = -2; k <= 2; ++k)
-                        f[static_cast<std::size_t>(k + 2)] = regularisedReflectance(
-                            *profiles[static_cast<std::size_t>(c)], std::abs(r + k * h),
-                            cellRadiusMm);
+                        f[static_cast<std::size_t>(k + 2)] =
+                            regularisedReflectance(*profiles[static_cast<std::size_t>(c)],
+                                                   std::abs(r + k * h), cellRadiusMm);
                     const double d1 = (f[0] - 8 * f[1] + 8 * f[3] - f[4]) / (12 * h);
                     const double d2 =
                         (-f[0] + 16 * f[1] - 30 * f[2] + 16 * f[3] - f[4]) / (12 * h * h);
@@ -186,9 +212,9 @@ void KernelTable::boundDerivatives(const std::array<const Profile*, 3>& profiles
                     // third:  f''' x^3 + 3 (f''/r - f'/r^2) x (1 - x^2), |x (1 - x^2)| <= 0.385.
                     const double mixed = std::abs(d2 / rr - d1 / (rr * rr));
                     Rgb* out = bounds_[i].derivative;
-                    const std::array<double, 4> bound{
-                        f[2], std::abs(d1), std::max(std::abs(d2), std::abs(d1) / rr),
-                        std::abs(d3) + 3 * 0.385 * mixed};
+                    const std::array<double, 4> bound{f[2], std::abs(d1),
+                                                      std::max(std::abs(d2), std::abs(d1) / rr),
+                                                      std::abs(d3) + 3 * 0.385 * mixed};
                     for (std::size_t k = 0; k < 4; ++k)
                         out[k][c] = std::max(out[k][c], static_cast<float>(kSafety * bound[k]));
                 }

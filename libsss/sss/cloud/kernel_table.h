@@ -52,14 +52,15 @@ private:
     void fitRows(const std::array<const Profile*, 3>& profiles, double cellRadiusMm);
     void boundDerivatives(const std::array<const Profile*, 3>& profiles, double cellRadiusMm);
 
-    float u0_ = 0;            // mm^2
-    std::int32_t base_ = 0;   // bits(u0) >> kShift
-    std::vector<Row> rows_;   // the last row is all zero
+    float u0_ = 0;           // mm^2
+    std::int32_t base_ = 0;  // bits(u0) >> kShift
+    std::vector<Row> rows_;  // the last row is all zero
     std::vector<BoundsRow> bounds_;
 };
 
-/// R_d(r) with its 1/r singularity averaged over a disk of radius `cellRadiusMm`: finite at 0, the
-/// same beyond 5 cell radii, the same total. The profile itself where it is not singular.
+/// R_d(r) with its singularity (1/r, log r or both) averaged over a disk of radius `cellRadiusMm`:
+/// finite at 0, the same beyond 5 cell radii, the same total. The profile itself where it is not
+/// singular.
 double regularisedReflectance(const Profile& profile, double rMm, double cellRadiusMm);
 
 }  // namespace sss

@@ -105,7 +105,9 @@ SurfacePoint summariseCell(const SurfaceStrata& strata, std::span<const Vec3> no
     }
     point.face = strata.faces[anchor];
     point.u = quantise(strata.barycentrics[anchor].x);
-    point.v = quantise(strata.barycentrics[anchor].y);
+    // Both may round up: never beyond the edge opposite the first corner.
+    point.v = std::min(quantise(strata.barycentrics[anchor].y),
+                       static_cast<std::uint16_t>(65535 - point.u));
     return point;
 }
 

@@ -49,10 +49,12 @@ std::optional<FilterKind> filterKind(std::string_view name) {
 
 PixelFilter::PixelFilter(FilterKind kind, double radiusPixels)
     : radiusPixels_(radiusPixels > 0 ? radiusPixels : filterInfo(kind).defaultRadiusPixels),
+      isBox_(kind == FilterKind::Box),
       table_(tabulated(filterInfo(kind).shape)) {}
 
 Vec2 PixelFilter::sample(const Vec2& u) const {
     const auto diameter = static_cast<float>(2.0 * radiusPixels_);
+    if (isBox_) return (u - Vec2(0.5f)) * diameter;
     return {(table_.sample(u.x).x - 0.5f) * diameter, (table_.sample(u.y).x - 0.5f) * diameter};
 }
 

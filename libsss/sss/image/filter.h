@@ -38,6 +38,7 @@ public:
 
 private:
     double radiusPixels_;
+    bool isBox_;  // needs no table
     PiecewiseConstant1D table_;
 };
 

@@ -14,8 +14,11 @@ BodyOptics::BodyOptics(const TranslucentMaterial& translucent) : material(transl
         auto& profile = profiles[static_cast<std::size_t>(c)];
         profile = makeProfile(translucent.profile, channel, translucent.profileOptions);
         diffuseAlbedo[c] = static_cast<float>(profile->total());
-        if (translucent.singleScattering)
-            multipleScale[c] = static_cast<float>(multipleScatterScale(*profile, channel));
+        if (!translucent.singleScattering) continue;
+        std::optional<double> shown;
+        if (translucent.diffuseColor) shown = (*translucent.diffuseColor)[c];
+        multipleScale[c] =
+            static_cast<float>(multipleScatterScale(*profile, channel, translucent.energy, shown));
     }
 }
 

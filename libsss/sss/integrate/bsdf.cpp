@@ -8,6 +8,7 @@ namespace sss {
 namespace {
 
 constexpr float kGrazing = 1e-4f;
+constexpr float kIndirectRoughness = 0.5f;
 
 Vec3 towards(const Vec3& n, const Vec3& side) { return glm::dot(n, side) < 0 ? -n : n; }
 
@@ -49,6 +50,11 @@ Bsdf::Bsdf(const World& world, const SurfaceHit& hit, const Vec3& wo, const Body
             ggx_ = Ggx(static_cast<float>(translucent->roughness));
         }
     }
+}
+
+void Bsdf::roughenForIndirect() {
+    const Ggx widest(kIndirectRoughness);
+    if (ggx_.alpha() < widest.alpha()) ggx_ = widest;
 }
 
 bool Bsdf::hasSmoothPart() const {

@@ -12,23 +12,6 @@ namespace {
 
 constexpr std::size_t kGrain = 64;
 
-// A place of a body as the world sees it.
-SurfaceHit placeOnBody(const World& world, int bodyIndex, FaceIndex face, const Vec2& barycentrics,
-                       const Vec3& position) {
-    const Body& body = world.bodies()[static_cast<std::size_t>(bodyIndex)];
-    const RigidTransform& move = body.worldFromBody;
-    SurfaceHit hit;
-    hit.position = Vec3(move.transformPoint(DVec3(position)));
-    hit.geometricNormal =
-        Vec3(move.transformDirection(glm::normalize(body.mesh.faceCross(face))));
-    hit.shadingNormal =
-        Vec3(move.transformDirection(DVec3(body.normalAt(face, barycentrics))));
-    hit.body = bodyIndex;
-    hit.bodyFace = face;
-    hit.material = body.material;
-    return hit;
-}
-
 class IrradianceEstimator {
 public:
     IrradianceEstimator(const World& world, const PathTracer& tracer, float eta)
@@ -37,7 +20,7 @@ public:
     Rgb estimate(const SurfaceHit& hit, Sampler& sampler, PathCounts& counts) const {
         Vec3 normal = hit.shadingNormal;
         if (glm::dot(normal, hit.geometricNormal) <= 0) normal = hit.geometricNormal;
-        const Vec3 from = offsetFromSurface(hit.position, hit.geometricNormal);
+        const Vec3 from = world_.leave(hit, hit.geometricNormal);
         return direct(hit, normal, from, sampler, counts) +
                scattered(hit, normal, from, sampler, counts);
     }
@@ -116,9 +99,8 @@ IrradianceResult computeIrradiance(const World& world, int body, const SurfaceSa
             double squares = 0;
             for (int k = 0; k < n; ++k) {
                 const std::uint32_t s = first + static_cast<std::uint32_t>(k % strata);
-                const SurfaceHit hit = placeOnBody(world, body, samples.strata.faces[s],
-                                                   samples.strata.barycentrics[s],
-                                                   samples.strata.positions[s]);
+                const SurfaceHit hit = world.surfaceOf(body, samples.strata.faces[s],
+                                                       samples.strata.barycentrics[s]);
                 Sampler sampler(combineSeeds(seed, p), static_cast<std::uint32_t>(k));
                 const Rgb e = estimator.estimate(hit, sampler, counts);
                 if (!isFinite(e)) {

@@ -9,6 +9,8 @@ namespace {
 
 // Paths longer than this are continued by chance.
 constexpr int kRouletteDepth = 3;
+// A direction drawn with less than this density (sr^-1) came from a diffuse or very rough lobe.
+constexpr float kWideLobe = 1.0f;
 
 }  // namespace
 
@@ -35,7 +37,7 @@ Rgb PathTracer::directLight(const SurfaceHit& hit, const Bsdf& bsdf, Sampler& sa
     const float uPick = sampler.next1D();
     const Vec2 uLight = sampler.next2D();
     if (!bsdf.hasSmoothPart()) return Rgb(0);
-    const Vec3 from = offsetFromSurface(hit.position, bsdf.geometricNormal());
+    const Vec3 from = world_.leave(hit, bsdf.geometricNormal());
     const DirectSample direct = sampleDirect(world_, from, uPick, uLight);
     if (!(direct.pdf > 0)) return Rgb(0);
     const Rgb value = bsdf.evaluate(direct.direction);
@@ -77,7 +79,7 @@ bool PathTracer::scatter(const SurfaceHit& hit, const Bsdf& bsdf, Sampler& sampl
     if (!(next.pdf > 0) || isZero(next.weight)) return false;
     throughput *= next.weight;
     ray = Ray{};
-    ray.origin = offsetFromSurface(hit.position, bsdf.geometricNormal());
+    ray.origin = world_.leave(hit, bsdf.geometricNormal());
     ray.direction = next.wi;
     origin = next.isDelta ? ScatterOrigin{} : ScatterOrigin{ray.origin, next.pdf};
     return true;
@@ -86,6 +88,7 @@ bool PathTracer::scatter(const SurfaceHit& hit, const Bsdf& bsdf, Sampler& sampl
 Rgb PathTracer::incoming(Ray ray, ScatterOrigin origin, int bounces, Sampler& sampler,
                          PathCounts& counts) const {
     Rgb sum(0), throughput(1);
+    bool isWide = false;
     for (int depth = 0;; ++depth) {
         Hit found;
         ++counts.rays;
@@ -97,7 +100,9 @@ Rgb PathTracer::incoming(Ray ray, ScatterOrigin origin, int bounces, Sampler& sa
         sum += throughput * radianceOfEmitter(world_, ray, hit, origin);
         if (depth >= bounces) return sum;
         const Vec3 wo = -ray.direction;
-        const Bsdf bsdf = bsdfAt(hit, wo);
+        Bsdf bsdf = bsdfAt(hit, wo);
+        isWide = isWide || origin.pdf < kWideLobe;
+        if (isWide) bsdf.roughenForIndirect();
         // Seen at second hand, all that comes from within is taken from the diffusion, unscaled:
         // the profile's total has the light scattered once in it.
         sum += throughput * (directLight(hit, bsdf, sampler, counts) + diffusion(hit, bsdf, counts));

@@ -26,7 +26,7 @@ Vec3 refracted(const Vec3& along, const Vec3& normal, float cosOutside, float co
 
 // Where a straight line from inside meets the boundary on its way out.
 struct Exit {
-    Vec3 position, geometricNormal;
+    Vec3 outside;  // just past the boundary
     float distance;
     float cosOutside, cosInside;
     Vec3 inward;  // propagation direction inside of light that comes in against the line
@@ -43,8 +43,7 @@ std::optional<Exit> findExit(const World& world, const BodyOptics& optics, int b
     if (surface.body != body || glm::dot(surface.geometricNormal, direction) <= 0)
         return std::nullopt;
     Exit exit;
-    exit.position = surface.position;
-    exit.geometricNormal = surface.geometricNormal;
+    exit.outside = world.leave(surface, surface.geometricNormal);
     exit.distance = hit.t;
     Vec3 normal = surface.shadingNormal;
     if (glm::dot(normal, direction) <= 0) normal = surface.geometricNormal;
@@ -126,8 +125,7 @@ private:
         DirectSample rest = direct;
         rest.distance -= exit->distance;
         ++counts.rays;
-        if (!isVisible(world_, offsetFromSurface(exit->position, exit->geometricNormal), rest))
-            return Rgb(0);
+        if (!isVisible(world_, exit->outside, rest)) return Rgb(0);
         const float weight = direct.isDelta ? 1.0f
                                             : powerHeuristic(share * direct.pdf,
                                                              (1 - share) * phasePdf(direct.direction));
@@ -143,7 +141,7 @@ private:
         const auto exit = findExit(world_, optics_, body_, place_, direction);
         if (!exit) return Rgb(0);
         Ray outward;
-        outward.origin = offsetFromSurface(exit->position, exit->geometricNormal);
+        outward.origin = exit->outside;
         outward.direction = direction;
         // Infinite without light sampling: nothing to share with.
         return entering(medium_, optics_, *exit, out_) *
@@ -172,14 +170,15 @@ Rgb singleScattering(const World& world, const BodyOptics& optics, const Surface
 
     // A ray that leaves the body before it scatters brings nothing.
     Ray inward;
-    inward.origin = offsetFromSurface(hit.position, -hit.geometricNormal);
+    inward.origin = world.leave(hit, -hit.geometricNormal);
     inward.direction = glm::normalize(refracted(-wo, normal, cosOut, cosOutInside, optics.eta));
     inward.tMax = depth.distance;
     ++counts.rays;
     if (world.rays().occluded(inward, bodyMask(hit.body))) return Rgb(0);
 
-    const InScattering inside(world, optics, medium, hit.body, inward.at(depth.distance),
-                              -inward.direction);
+    // From the surface itself: the step off it would count as distance in the medium.
+    const Vec3 place = hit.position + inward.direction * depth.distance;
+    const InScattering inside(world, optics, medium, hit.body, place, -inward.direction);
     const float leaving = (1.0f - fresnelReflectance(cosOut, optics.eta)) / (optics.eta * optics.eta);
     return inside.estimate(sampler, incoming, counts) * depth.weight * leaving;
 }

@@ -103,29 +103,39 @@ ChannelMedium invertAlbedo(std::string_view profile, const DiffuseLook& look,
 
 namespace {
 
-Medium mediumOf(const DRgb& color, const DRgb& radiusMm, double g, double eta,
-                std::string_view profile) {
+/// What both specifications say, under one name for each of its parts.
+struct SubsurfaceLook {
+    DRgb color, radiusMm;  ///< radius: volume mean free path
+    double g, eta;
+};
+
+Medium mediumOf(const SubsurfaceLook& look, std::string_view profile,
+                const ProfileOptions& options) {
     Medium medium;
-    medium.eta = eta;
+    medium.eta = look.eta;
     for (int c = 0; c < 3; ++c) {
-        const ChannelMedium channel =
-            invertAlbedo(profile, {color[c], radiusMm[c], RadiusKind::VolumeMfp, g, eta});
+        const ChannelMedium channel = invertAlbedo(
+            profile, {look.color[c], look.radiusMm[c], RadiusKind::VolumeMfp, look.g, look.eta},
+            options);
         medium.sigmaA[c] = channel.sigmaA;
         medium.sigmaS[c] = channel.sigmaS;
-        medium.g[c] = g;
+        medium.g[c] = look.g;
     }
     return medium;
 }
 
 }  // namespace
 
-Medium mediumFromOpenPbr(const OpenPbrSubsurface& p, double mmPerUnit, std::string_view profile) {
-    return mediumOf(p.color, p.radiusScale * (p.radius * mmPerUnit), p.anisotropy, p.ior, profile);
+Medium mediumFromOpenPbr(const OpenPbrSubsurface& p, double mmPerUnit, std::string_view profile,
+                         const ProfileOptions& options) {
+    return mediumOf({p.color, p.radiusScale * (p.radius * mmPerUnit), p.anisotropy, p.ior}, profile,
+                    options);
 }
 
 Medium mediumFromPrincipled(const PrincipledSubsurface& p, double mmPerUnit,
-                            std::string_view profile) {
-    return mediumOf(p.baseColor, p.radius * (p.scale * mmPerUnit), p.anisotropy, p.ior, profile);
+                            std::string_view profile, const ProfileOptions& options) {
+    return mediumOf({p.baseColor, p.radius * (p.scale * mmPerUnit), p.anisotropy, p.ior}, profile,
+                    options);
 }
 
 double openPbrAlbedo(double color, double g) {

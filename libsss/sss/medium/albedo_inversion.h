@@ -57,9 +57,10 @@ struct PrincipledSubsurface {
 /// As media whose totals are the colors asked for, by the profile that will render them.
 /// `mmPerUnit` is the length of a scene unit. Throw as invertAlbedo.
 Medium mediumFromOpenPbr(const OpenPbrSubsurface& parameters, double mmPerUnit,
-                         std::string_view profile = "dipole");
+                         std::string_view profile = "dipole", const ProfileOptions& options = {});
 Medium mediumFromPrincipled(const PrincipledSubsurface& parameters, double mmPerUnit,
-                            std::string_view profile = "dipole");
+                            std::string_view profile = "dipole",
+                            const ProfileOptions& options = {});
 
 /// OpenPBR's own single-scattering albedo of a color, for an index-matched boundary (the inverse of
 /// van de Hulst's approximation); for comparison with the inversion above.

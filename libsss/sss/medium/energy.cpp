@@ -20,11 +20,11 @@ EnergyConvention energyConvention(std::string_view name) {
 }
 
 double multipleScatterScale(const Profile& profile, const ChannelMedium& medium,
-                            EnergyConvention convention) {
+                            EnergyConvention convention, std::optional<double> shownTotal) {
     if (convention == EnergyConvention::Jensen) return 1;
     const double total = profile.halfSpaceTotal();
     if (!(total > 0)) return 0;
-    const double all = halfSpaceTotals(medium).diffuse;
+    const double all = shownTotal ? *shownTotal : halfSpaceTotals(medium).diffuse;
     const double once = singleScatterAlbedo(medium, Illumination::Diffuse);
     return std::max(all - once, 0.0) / total;
 }

@@ -2,6 +2,7 @@
 #include "sss/medium/half_space.h"
 #include "sss/medium/profile.h"
 
+#include <optional>
 #include <string_view>
 
 namespace sss {
@@ -35,9 +36,11 @@ EnergyConvention energyConvention(std::string_view name);
 /// Factor for the diffusion sum. Consistent: (transfer - single)/total of the profile in the
 /// half-space, both for diffuse light: 0.85 to 0.98 for isotropic scattering and alpha' > 0.95;
 /// above 1 where the profile is darker than the truth (forward scattering, low albedo). Jensen: 1.
-/// 0 for a profile whose total is 0. A slab's profile takes the factor of the half-space made of
-/// the same medium.
+/// `shownTotal` replaces the transfer's total: the color of a medium that was made from a color, so
+/// that this color is what shows. 0 for a profile whose total is 0. A slab's profile takes the
+/// factor of the half-space made of the same medium.
 double multipleScatterScale(const Profile& profile, const ChannelMedium& medium,
-                            EnergyConvention convention = EnergyConvention::Consistent);
+                            EnergyConvention convention = EnergyConvention::Consistent,
+                            std::optional<double> shownTotal = {});
 
 }  // namespace sss

@@ -16,12 +16,19 @@ void readProfile(TranslucentMaterial& material, const Node& node) {
 // In the order of BoundaryModel.
 constexpr std::string_view kBoundaries[] = {"exact", "polynomial"};
 
+// In the order of EnergyConvention.
+constexpr std::string_view kEnergies[] = {"consistent", "jensen"};
+
 constexpr Field<TranslucentMaterial> kTranslucentFields[] = {
     {"type"},
     {"profile", readProfile},
     {"boundary",
      [](TranslucentMaterial& m, const Node& n) {
          m.profileOptions.boundary = static_cast<BoundaryModel>(choice(n, kBoundaries));
+     }},
+    {"energy",
+     [](TranslucentMaterial& m, const Node& n) {
+         m.energy = static_cast<EnergyConvention>(choice(n, kEnergies));
      }},
     {"slabThicknessMm",
      [](TranslucentMaterial& m, const Node& n) {

@@ -14,6 +14,8 @@ namespace {
 // mm^-1; from far below water to far above the densest paint.
 constexpr Range kCoefficientRange{0, 1e9, false, false, "mm^-1"};
 constexpr Range kMeanCosineRange{-1, 1, true, true};
+/// Of a radius: a channel without scattering is not meant by 0.
+constexpr Range kScaleRange{1e-9, 1e9};
 /// Index of refraction where the file gives none: what [JMLH01] take for all media but marble.
 constexpr double kDefaultEta = 1.3;
 
@@ -57,8 +59,23 @@ void readReducedScattering(TranslucentMaterial& out, const Node& material) {
     out.medium.eta = etaOr(material, kDefaultEta);
 }
 
-/// The coefficients with which the material's profile returns the colour; a slab's is the colour of
-/// its thick limit, the dipole.
+/// The profile that a colour is inverted by: the material's; a slab's colour is that of its thick
+/// limit, the dipole.
+std::string_view invertedProfile(const TranslucentMaterial& material) {
+    return material.profileOptions.slabThicknessMm ? "dipole" : std::string_view(material.profile);
+}
+
+/// Runs an inversion; what it refuses is refused at the colour.
+template <typename Inversion>
+void invertAt(const Node& colourNode, const Inversion& inversion) {
+    try {
+        inversion();
+    } catch (const Error& error) {
+        fail(colourNode,
+             "cannot be had: " + std::string(error.what()).substr(error.where().size() + 2));
+    }
+}
+
 void readColour(TranslucentMaterial& out, const Node& material, std::string_view lengthKey,
                 RadiusKind lengthKind) {
     const Node colourNode = member(material, "diffuseColor");
@@ -66,19 +83,17 @@ void readColour(TranslucentMaterial& out, const Node& material, std::string_view
     const DRgb lengthMm = channels(member(material, lengthKey), kMmRange);
     out.medium.g = meanCosine(material);
     out.medium.eta = etaOr(material, kDefaultEta);
-    const bool isSlab = out.profileOptions.slabThicknessMm.has_value();
-    const std::string_view profile = isSlab ? "dipole" : std::string_view(out.profile);
-    for (int c = 0; c < 3; ++c) {
-        const DiffuseLook look{colour[c], lengthMm[c], lengthKind, out.medium.g[c], out.medium.eta};
-        try {
-            const ChannelMedium channel = invertAlbedo(profile, look, out.profileOptions);
+    out.diffuseColor = colour;
+    invertAt(colourNode, [&] {
+        for (int c = 0; c < 3; ++c) {
+            const ChannelMedium channel =
+                invertAlbedo(invertedProfile(out),
+                             {colour[c], lengthMm[c], lengthKind, out.medium.g[c], out.medium.eta},
+                             out.profileOptions);
             out.medium.sigmaA[c] = channel.sigmaA;
             out.medium.sigmaS[c] = channel.sigmaS;
-        } catch (const Error& error) {
-            fail(colourNode,
-                 "cannot be had: " + std::string(error.what()).substr(error.where().size() + 2));
         }
-    }
+    });
 }
 
 void readColourByTransport(TranslucentMaterial& out, const Node& material) {
@@ -87,6 +102,47 @@ void readColourByTransport(TranslucentMaterial& out, const Node& material) {
 
 void readColourByDiffusion(TranslucentMaterial& out, const Node& material) {
     readColour(out, material, "diffuseMeanFreePathMm", RadiusKind::DiffuseMfp);
+}
+
+double numberOr(const Node& material, std::string_view key, const Range& range, double otherwise) {
+    return material.value.find(key) != nullptr ? number(member(material, key), range) : otherwise;
+}
+
+DRgb channelsOr(const Node& material, std::string_view key, const Range& range, const DRgb& other) {
+    return material.value.find(key) != nullptr ? channels(member(material, key), range) : other;
+}
+
+/// OpenPBR 1.1 and Blender's Principled shader, their names, units and defaults.
+void readOpenPbr(TranslucentMaterial& out, const Node& material) {
+    OpenPbrSubsurface p;
+    const Node colour = member(material, "subsurface_color");
+    p.color = channels(colour, kFractionRange);
+    p.radius = numberOr(material, "subsurface_radius", kSizeRange, p.radius);
+    p.radiusScale = channelsOr(material, "subsurface_radius_scale", kScaleRange, p.radiusScale);
+    p.anisotropy =
+        numberOr(material, "subsurface_scatter_anisotropy", kMeanCosineRange, p.anisotropy);
+    p.ior = numberOr(material, "specular_ior", kEtaRange, p.ior);
+    out.roughness = numberOr(material, "specular_roughness", kFractionRange, out.roughness);
+    out.diffuseColor = p.color;
+    invertAt(colour, [&] {
+        out.medium = mediumFromOpenPbr(p, material.context.mmPerUnit, invertedProfile(out),
+                                       out.profileOptions);
+    });
+}
+
+void readPrincipled(TranslucentMaterial& out, const Node& material) {
+    PrincipledSubsurface p;
+    const Node colour = member(material, "base_color");
+    p.baseColor = channels(colour, kFractionRange);
+    p.radius = channelsOr(material, "subsurface_radius", kSizeRange, p.radius);
+    p.scale = numberOr(material, "subsurface_scale", kSizeRange, p.scale);
+    p.anisotropy = numberOr(material, "subsurface_anisotropy", kMeanCosineRange, p.anisotropy);
+    p.ior = numberOr(material, "subsurface_ior", kEtaRange, p.ior);
+    out.diffuseColor = p.baseColor;
+    invertAt(colour, [&] {
+        out.medium = mediumFromPrincipled(p, material.context.mmPerUnit, invertedProfile(out),
+                                          out.profileOptions);
+    });
 }
 
 /// One way to describe a medium: a new one costs a row here, and its keys in kMediumFields.
@@ -102,12 +158,35 @@ const MediumWay kWays[] = {
     {{"sigmaAPerMm", "sigmaSPrimePerMm"}, {"g", "eta"}, readReducedScattering},
     {{"diffuseColor", "meanFreePathMm"}, {"g", "eta"}, readColourByTransport},
     {{"diffuseColor", "diffuseMeanFreePathMm"}, {"g", "eta"}, readColourByDiffusion},
+    {{"subsurface_color"},
+     {"subsurface_radius", "subsurface_radius_scale", "subsurface_scatter_anisotropy",
+      "specular_ior", "specular_roughness"},
+     readOpenPbr},
+    {{"base_color"},
+     {"subsurface_radius", "subsurface_scale", "subsurface_anisotropy", "subsurface_ior"},
+     readPrincipled},
 };
 
 constexpr Field<TranslucentMaterial> kMediumFields[] = {
-    {"medium"},       {"sigmaAPerMm"},    {"sigmaSPerMm"},           {"sigmaSPrimePerMm"},
-    {"diffuseColor"}, {"meanFreePathMm"}, {"diffuseMeanFreePathMm"}, {"g"},
+    {"medium"},
+    {"sigmaAPerMm"},
+    {"sigmaSPerMm"},
+    {"sigmaSPrimePerMm"},
+    {"diffuseColor"},
+    {"meanFreePathMm"},
+    {"diffuseMeanFreePathMm"},
+    {"g"},
     {"eta"},
+    {"subsurface_color"},
+    {"subsurface_radius"},
+    {"subsurface_radius_scale"},
+    {"subsurface_scatter_anisotropy"},
+    {"specular_ior"},
+    {"specular_roughness"},
+    {"base_color"},
+    {"subsurface_scale"},
+    {"subsurface_anisotropy"},
+    {"subsurface_ior"},
 };
 
 bool has(const std::vector<std::string_view>& keys, std::string_view key) {
@@ -136,7 +215,7 @@ std::string joined(const std::vector<std::string_view>& keys) {
     fail(material,
          given.empty() ? "does not say what its medium is"
                        : fmt::format("describes its medium by {}", joined(given)),
-         "give " + ways + "; \"eta\" may be added to each, \"g\" to all but the first");
+         "give " + ways + "; scenes/README.md says what may stand beside them");
 }
 
 }  // namespace
@@ -151,6 +230,10 @@ void readMedium(TranslucentMaterial& out, const Node& material) {
     const auto way =
         std::ranges::find_if(kWays, [&](const MediumWay& w) { return fits(w, given); });
     if (way == std::end(kWays)) failWay(material, given);
+    if (has(given, "specular_roughness") && material.value.find("roughness") != nullptr) {
+        fail(material, "says its roughness twice",
+             "\"roughness\" and \"specular_roughness\" are the same");
+    }
     way->read(out, material);
     if (out.medium.sigmaA == DRgb(0) && out.medium.sigmaS == DRgb(0)) {
         fail(material, "has a medium that neither absorbs nor scatters",

@@ -1,6 +1,7 @@
 #pragma once
 #include "sss/base/vec.h"
 #include "sss/image/filter.h"
+#include "sss/medium/energy.h"
 #include "sss/medium/medium.h"
 #include "sss/medium/profile.h"
 
@@ -41,7 +42,9 @@ struct TranslucentMaterial {
     std::string mediumName;  ///< measured name, or empty
     std::string profile = "dipole";
     ProfileOptions profileOptions;
-    double roughness = 0;  ///< of the boundary; GGX alpha = roughness^2; 0 = smooth
+    EnergyConvention energy = EnergyConvention::Consistent;
+    std::optional<DRgb> diffuseColor;  ///< if the medium was made from one: the total it shows
+    double roughness = 0;              ///< of the boundary; GGX alpha = roughness^2; 0 = smooth
     bool surfaceReflection = true;
     bool singleScattering = true;
     bool multipleScattering = true;

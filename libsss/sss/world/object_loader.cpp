@@ -79,6 +79,12 @@ void chooseNormals(TriangleMesh& mesh, NormalsMode mode) {
     }
 }
 
+// Where a user finds the surface: the file, or else the object of the scene.
+std::string sourceOf(const ObjectSettings& object) {
+    const auto* file = std::get_if<MeshFileShape>(&object.shape);
+    return file ? file->path.string() : object.name;
+}
+
 }  // namespace
 
 LoadedObject loadObject(const ObjectSettings& object, const Scene& scene, Reporter& reporter) {
@@ -92,7 +98,7 @@ LoadedObject loadObject(const ObjectSettings& object, const Scene& scene, Report
         reporter.warn("mesh", object.name + ": " + sentence);
     const RemovedParts removed = removeUnusable(loaded.mesh);
     if (loaded.mesh.faces.empty())
-        throw Error(ErrorKind::BadInput, object.name,
+        throw Error(ErrorKind::BadInput, sourceOf(object),
                     fmt::format("none of its {} faces has an area", facesRead),
                     "check the mesh and its scale");
     if (removed.degenerateFaces + removed.duplicateFaces > 0)

@@ -154,10 +154,8 @@ void World::addGeometryTo(Hasher& hasher, std::size_t object) const {
 SurfaceHit World::surfaceAt(const Hit& hit) const {
     const Part& part = parts_[hit.geometry];
     SurfaceHit surface;
-    // From the corners, not along the ray: on the surface to the last bit, however far the camera.
     const UVec3 v = part.faces[hit.face];
-    surface.position = part.positions[v.x] * (1.0f - hit.u - hit.v) + part.positions[v.y] * hit.u +
-                       part.positions[v.z] * hit.v;
+    surface.position = rays_->position(hit);
     surface.geometricNormal = hit.normal;
     surface.shadingNormal = hit.normal;
     surface.distance = hit.t;
@@ -176,6 +174,30 @@ SurfaceHit World::surfaceAt(const Hit& hit) const {
             surface.shadingNormal = -surface.shadingNormal;
     }
     return surface;
+}
+
+SurfaceHit World::surfaceOf(int bodyIndex, FaceIndex bodyFace, const Vec2& barycentrics) const {
+    const Body& body = bodies_[static_cast<std::size_t>(bodyIndex)];
+    const auto after = std::upper_bound(body.firstFace.begin(), body.firstFace.end(), bodyFace);
+    const auto member = static_cast<std::size_t>(after - body.firstFace.begin() - 1);
+    Hit hit;
+    hit.geometry = static_cast<std::uint32_t>(body.objects[member]);
+    hit.face = bodyFace - body.firstFace[member];
+    hit.u = barycentrics.x;
+    hit.v = barycentrics.y;
+    // In double: a sliver may have no area left in float.
+    hit.normal = Vec3(body.worldFromBody.transformDirection(
+        glm::normalize(body.mesh.faceCross(bodyFace))));
+    return surfaceAt(hit);
+}
+
+Vec3 World::leave(const SurfaceHit& hit, const Vec3& normal) const {
+    Hit place;
+    place.geometry = static_cast<std::uint32_t>(hit.object);
+    place.face = hit.face;
+    place.u = hit.barycentrics.x;
+    place.v = hit.barycentrics.y;
+    return rays_->leave(place, normal);
 }
 
 }  // namespace sss

@@ -65,6 +65,10 @@ public:
 
     /// What stands where a ray hit.
     SurfaceHit surfaceAt(const Hit& hit) const;
+    /// A place of a body's surface, given on Body::mesh, as if a ray had hit it.
+    SurfaceHit surfaceOf(int body, FaceIndex bodyFace, const Vec2& barycentrics) const;
+    /// Where a ray that leaves a surface on the side of `normal` starts.
+    Vec3 leave(const SurfaceHit& hit, const Vec3& normal) const;
 
 private:
     struct Part {  // one geometry of the ray scene: one object

@@ -1,5 +1,6 @@
 #include "sss/medium/energy.h"
 
+#include "sss/medium/albedo_inversion.h"
 #include "sss/medium/measured_media.h"
 #include "sss/medium/photon_beam.h"
 
@@ -105,6 +106,22 @@ TEST(Energy, DiffusionAndSingleScatteringMatchRadiativeTransfer) {
                 const double sum = scale * profile->total() + single;
                 EXPECT_NEAR(sum, truth, 0.02 * truth) << name << " " << material << " " << c;
             }
+        }
+    }
+}
+
+TEST(Energy, AMediumMadeFromAColorShowsThatColor) {
+    for (const std::string_view model : {"dipole", "better_dipole"}) {
+        for (const double color : {0.3, 0.7, 0.95}) {
+            const ChannelMedium medium =
+                invertAlbedo(model, {color, 1, RadiusKind::TransportMfp, 0.2, 1.4});
+            const auto profile = makeProfile(model, medium);
+            const double scale =
+                multipleScatterScale(*profile, medium, EnergyConvention::Consistent, color);
+            EXPECT_NEAR(scale * profile->total() +
+                            singleScatterAlbedo(medium, Illumination::Diffuse),
+                        color, 1e-6);
+            EXPECT_EQ(multipleScatterScale(*profile, medium, EnergyConvention::Jensen, color), 1.0);
         }
     }
 }

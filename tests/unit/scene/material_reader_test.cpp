@@ -1,4 +1,5 @@
 #include "sss/medium/measured_media.h"
+#include "sss/scene/boundary_override.h"
 #include "sss/scene/metal_table.h"
 #include "unit/scene/scene_text.h"
 
@@ -54,6 +55,59 @@ TEST(MaterialReader, TakesTheColourOfASlabFromItsThickLimit) {
     EXPECT_EQ(translucent(slab).profile, "multipole");
     EXPECT_EQ(translucent(slab).profileOptions.slabThicknessMm, 3.0);
     EXPECT_EQ(translucent(slab).medium, translucent(thick).medium);
+}
+
+TEST(MaterialReader, ReadsTheNamesOfOpenPbrInSceneUnits) {
+    const Scene scene = read({.units = "0.01",
+                              .materials = R"("milk": {"type": "translucent",
+        "subsurface_color": [0.9, 0.5, 0.1], "subsurface_radius": 0.2,
+        "subsurface_scatter_anisotropy": 0.5, "specular_roughness": 0.3})"});
+    const TranslucentMaterial& milk = translucent(scene);
+    EXPECT_EQ(milk.roughness, 0.3);
+    EXPECT_EQ(milk.medium.eta, 1.5);
+    EXPECT_EQ(milk.medium.g, DRgb(0.5));
+    EXPECT_EQ(milk.diffuseColor, DRgb(0.9, 0.5, 0.1));
+    const DRgb pathMm(2, 1, 0.5);  // 0.2 units of 10 mm, scaled by 1, 1/2, 1/4
+    for (int c = 0; c < 3; ++c) {
+        const ChannelMedium channel = milk.medium.channel(c);
+        EXPECT_NEAR(1 / channel.sigmaT(), pathMm[c], 1e-9);
+        EXPECT_NEAR(makeProfile("dipole", channel)->total(), (*milk.diffuseColor)[c], 1e-6);
+    }
+}
+
+TEST(MaterialReader, ReadsTheNamesOfThePrincipledShaderInSceneUnits) {
+    const Scene scene = read({.units = "1",
+                              .materials = R"("milk": {"type": "translucent",
+        "profile": "better_dipole", "boundary": "polynomial", "base_color": 0.6,
+        "subsurface_ior": 1.3, "roughness": 0.4})"});
+    const TranslucentMaterial& milk = translucent(scene);
+    EXPECT_EQ(milk.roughness, 0.4);
+    const DRgb pathMm(5, 1, 0.5);  // Blender's defaults: 5 mm of red in a scene in metres
+    for (int c = 0; c < 3; ++c) {
+        const ChannelMedium channel = milk.medium.channel(c);
+        EXPECT_NEAR(1 / channel.sigmaT(), pathMm[c], 1e-9);
+        EXPECT_NEAR(makeProfile("better_dipole", channel, milk.profileOptions)->total(), 0.6, 1e-6);
+    }
+}
+
+TEST(MaterialReader, ReadsTheEnergyConvention) {
+    EXPECT_EQ(translucent(read({})).energy, EnergyConvention::Consistent);
+    const std::string look = R"("milk": {"type": "translucent", "medium": "Marble", "energy": )";
+    EXPECT_EQ(translucent(read({.materials = look + R"("consistent"})"})).energy,
+              EnergyConvention::Consistent);
+    EXPECT_EQ(translucent(read({.materials = look + R"("jensen"})"})).energy,
+              EnergyConvention::Jensen);
+    EXPECT_FALSE(translucent(read({})).diffuseColor.has_value());
+}
+
+TEST(BoundaryOverride, ReachesEveryTranslucentMaterial) {
+    Scene scene = read({.materials = std::string(kMilk) + R"(,
+        "paint": {"type": "lambertian", "reflectance": 0.5})"});
+    setBoundary(scene, boundaryModel("polynomial", "--boundary"));
+    EXPECT_EQ(translucent(scene).profileOptions.boundary, BoundaryModel::Polynomial);
+    setBoundary(scene, boundaryModel("exact", "--boundary"));
+    EXPECT_EQ(translucent(scene).profileOptions.boundary, BoundaryModel::Exact);
+    EXPECT_THROW(boundaryModel("polinomial", "--boundary"), Error);
 }
 
 TEST(MaterialReader, ReadsEveryMeasuredMedium) {

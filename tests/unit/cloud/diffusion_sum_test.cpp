@@ -1,0 +1,227 @@
+// The sum over the octree against the sum over all points.
+#include "sss/cloud/diffusion_sum.h"
+
+#include "cloud_tools.h"
+#include "sss/base/rng.h"
+#include "sss/geom/shapes.h"
+
+#include <gtest/gtest.h>
+
+namespace sss {
+namespace {
+
+using testing::Deviations;
+using testing::LitCloud;
+using testing::Optics;
+using testing::placesOn;
+using testing::sumAt;
+
+// Light across a terminator, with a little colour to it.
+Rgb fromOneSide(const Vec3& p) {
+    return Rgb(1.0f, 0.8f, 0.5f) * std::max(0.0f, glm::normalize(p).x);
+}
+Rgb halfPlane(const Vec3& p) { return Rgb(p.x > 0 ? 1.0f : 0.0f); }
+// Red light on one half, blue on the other, green on both.
+Rgb redAndBlue(const Vec3& p) { return p.x > 0 ? Rgb(1, 0.5f, 0) : Rgb(0, 0.5f, 1); }
+
+struct Case {
+    const char* name;
+    const char* medium;
+    TriangleMesh mesh;
+    testing::Light light;
+    double spacingPerMfp;
+    bool farFromLight;  // the receivers' channels span many orders of magnitude
+};
+
+std::vector<Case> cases() {
+    std::vector<Case> all;
+    for (const auto& [medium, perMfp] :
+         {std::pair{"marble", 0.75}, {"skimmilk", 0.75}, {"ketchup", 0.45}}) {
+        const double l = Optics(medium).smallestMfp();
+        all.push_back({"terminator", medium, makeSphere(18 * l), fromOneSide, perMfp, false});
+        all.push_back({"light edge", medium, makeRectangle(50 * l, 25 * l), halfPlane, perMfp, true});
+        all.push_back({"red and blue", medium, makeRectangle(40 * l, 25 * l), redAndBlue, perMfp, true});
+    }
+    return all;
+}
+
+TEST(DiffusionSum, KeepsItsTolerance) {
+    for (const Case& c : cases()) {
+        const Optics optics(c.medium);
+        const LitCloud cloud(c.mesh, c.spacingPerMfp * optics.smallestMfp(), c.light);
+        const KernelTable table = cloud.table(optics, c.mesh.bounds().diagonal());
+        const DiffusionSum sum(cloud.view(), cloud.nodes, table);
+        const std::vector<Vec3> receivers = placesOn(c.mesh, 1024, 4);
+        std::vector<DRgb> truth;
+        for (const Vec3& p : receivers) truth.push_back(sum.bruteForce(p));
+        for (const double tolerance : {0.1, 0.01, 0.001, 0.0001})
+            for (const std::size_t group : {1u, 32u}) {
+                const std::vector<Rgb> sums = sumAt(sum, receivers, tolerance, group);
+                Deviations deviations(tolerance);
+                for (std::size_t i = 0; i < sums.size(); ++i) deviations.add(sums[i], truth[i]);
+                const auto where = ::testing::Message()
+                                   << c.name << ", " << c.medium << ", tolerance " << tolerance
+                                   << ", groups of " << group;
+                EXPECT_LE(deviations.shareOutside(), 0.001) << where;
+                EXPECT_LE(deviations.largest(), 3 * tolerance) << where;
+                EXPECT_LE(deviations.bias(), 0.1 * tolerance) << where;
+            }
+    }
+}
+
+TEST(DiffusionSum, WithoutToleranceEqualsBruteForce) {
+    for (const char* medium : {"marble", "ketchup"}) {
+        const Optics optics(medium);
+        const double l = optics.smallestMfp();
+        const TriangleMesh mesh = makeSphere(8 * l);
+        const LitCloud cloud(mesh, 0.6 * l, redAndBlue);
+        const KernelTable table = cloud.table(optics, 20 * l);
+        const DiffusionSum sum(cloud.view(), cloud.nodes, table);
+        const std::vector<Vec3> receivers = placesOn(mesh, 128, 9);
+        const std::vector<Rgb> sums = sumAt(sum, receivers, 0, 32);
+        for (std::size_t i = 0; i < receivers.size(); ++i) {
+            const DRgb truth = sum.bruteForce(receivers[i]);
+            for (int c = 0; c < 3; ++c)
+                EXPECT_NEAR(static_cast<double>(sums[i][c]), truth[c], 2e-6 * truth[c]);
+        }
+    }
+}
+
+TEST(DiffusionSum, PointsInAnyOrderGiveTheSameAnswer) {
+    const Optics optics("marble");
+    const TriangleMesh mesh = makeSphere(4);
+    const LitCloud cloud(mesh, 0.3, fromOneSide);
+    const KernelTable table = cloud.table(optics, 9);
+    const std::vector<Vec3> receivers = placesOn(mesh, 96, 2);
+    // Shuffled, then put in order again.
+    std::vector<std::uint32_t> shuffled(cloud.samples.size());
+    for (std::uint32_t i = 0; i < shuffled.size(); ++i) shuffled[i] = i;
+    Rng rng(6);
+    for (std::size_t i = shuffled.size(); i-- > 1;)
+        std::swap(shuffled[i], shuffled[rng.next64() % (i + 1)]);
+    std::vector<Vec3> positions;
+    for (const std::uint32_t i : shuffled) positions.push_back(cloud.samples.points[i].position);
+    std::vector<SurfacePoint> points;
+    std::vector<Rgb> irradiance;
+    for (const std::uint32_t k : mortonOrder(positions)) {
+        points.push_back(cloud.samples.points[shuffled[k]]);
+        irradiance.push_back(cloud.irradiance[shuffled[k]]);
+    }
+    const CloudView again{points, irradiance};
+    const auto nodes = buildOctree(again);
+    for (const double tolerance : {0.0, 0.01}) {
+        const auto a = sumAt({cloud.view(), cloud.nodes, table}, receivers, tolerance, 32);
+        const auto b = sumAt({again, nodes, table}, receivers, tolerance, 32);
+        EXPECT_EQ(a, b) << tolerance;
+    }
+}
+
+TEST(DiffusionSum, FewerInteractionsForALargerTolerance) {
+    const Optics optics("marble");
+    const TriangleMesh mesh = makeSphere(8);
+    const LitCloud cloud(mesh, 0.25, fromOneSide);
+    const KernelTable table = cloud.table(optics, 17);
+    const DiffusionSum sum(cloud.view(), cloud.nodes, table);
+    const std::vector<Vec3> receivers = placesOn(mesh, 16384, 2);
+    std::vector<Rgb> out(32);
+    std::uint64_t previous = 32 * cloud.samples.size() + 1;
+    for (const double tolerance : {0.0, 0.0001, 0.001, 0.01, 0.1}) {
+        DiffusionSum::Scratch scratch;
+        SumCounts counts;
+        sum.evaluate(std::span(receivers).first(32), tolerance, out, scratch, counts);
+        EXPECT_EQ(counts.receivers, 32u);
+        EXPECT_LT(counts.interactions(), previous);
+        previous = counts.interactions();
+    }
+    EXPECT_LT(previous, 32 * 400u);
+}
+
+TEST(DiffusionSum, ReceiversOnPointsAndAwayFromTheSurface) {
+    const Optics optics("skimmilk");
+    const TriangleMesh mesh = makeSphere(6);
+    const LitCloud cloud(mesh, 0.4, fromOneSide);
+    const KernelTable table = cloud.table(optics, 40);
+    const DiffusionSum sum(cloud.view(), cloud.nodes, table);
+    std::vector<Vec3> receivers;
+    for (std::size_t i = 0; i < cloud.samples.size(); i += 9)
+        receivers.push_back(cloud.samples.points[i].position);
+    for (int i = 0; i < 64; ++i) receivers.emplace_back(0.2f * static_cast<float>(i), 0.1f, -0.3f);
+    const std::vector<Rgb> sums = sumAt(sum, receivers, 0.01, 16);
+    Deviations deviations(0.01);
+    for (std::size_t i = 0; i < receivers.size(); ++i)
+        deviations.add(sums[i], sum.bruteForce(receivers[i]));
+    EXPECT_EQ(deviations.shareOutside(), 0);
+}
+
+TEST(DiffusionSum, ReceiversFarApartShareAGroup) {
+    const Optics optics("marble");
+    const TriangleMesh mesh = makeSphere(6);
+    const LitCloud cloud(mesh, 0.4, fromOneSide);
+    const KernelTable table = cloud.table(optics, 13);
+    const DiffusionSum sum(cloud.view(), cloud.nodes, table);
+    const std::vector<Vec3> receivers{{6, 0, 0}, {-6, 0, 0}, {0, 6, 0}, {0, 0, -6}};
+    const std::vector<Rgb> sums = sumAt(sum, receivers, 0.001, 4);
+    for (std::size_t i = 0; i < receivers.size(); ++i) {
+        const DRgb truth = sum.bruteForce(receivers[i]);
+        for (int c = 0; c < 3; ++c)
+            EXPECT_NEAR(static_cast<double>(sums[i][c]), truth[c], 1e-3 * truth[c]);
+    }
+}
+
+TEST(DiffusionSum, CoincidentPoints) {
+    const Optics optics("marble");
+    std::vector<SurfacePoint> points(1000);
+    for (SurfacePoint& p : points) {
+        p.position = {1, 2, 3};
+        p.areaMm2 = 0.01f;
+    }
+    const std::vector<Rgb> irradiance(1000, Rgb(1, 2, 3));
+    const CloudView cloud{points, irradiance};
+    const auto nodes = buildOctree(cloud);
+    const KernelTable table(optics.pointers(), 50, 0.1);
+    const DiffusionSum sum(cloud, nodes, table);
+    const std::vector<Vec3> receivers{{1, 2, 3}, {1, 2, 3.5f}, {4, 2, 3}, {-9, 2, 3}};
+    for (const double tolerance : {0.0, 0.01}) {
+        const auto sums = sumAt(sum, receivers, tolerance, 1);
+        for (std::size_t i = 0; i < receivers.size(); ++i)
+            for (int c = 0; c < 3; ++c) {
+                const double r = static_cast<double>(glm::length(receivers[i] - receivers[0]));
+                const double expected = 10.0 * (c + 1) * optics.profile(c).reflectance(r);
+                EXPECT_NEAR(static_cast<double>(sums[i][c]), expected, 2e-5 * expected);
+            }
+    }
+}
+
+TEST(DiffusionSum, NothingComesOfNothing) {
+    const Optics optics("marble");
+    const KernelTable table(optics.pointers(), 50, 0.1);
+    const std::vector<Vec3> receivers{{1, 2, 3}, {0, 0, 0}};
+    for (const double tolerance : {0.0, 0.01}) {
+        EXPECT_EQ(sumAt({CloudView{}, {}, table}, receivers, tolerance, 2),
+                  std::vector<Rgb>(2, Rgb(0.0f)));
+        const LitCloud dark(makeSphere(2), 0.3, [](const Vec3&) { return Rgb(0.0f); });
+        const DiffusionSum sum(dark.view(), dark.nodes, table);
+        EXPECT_EQ(sumAt(sum, receivers, tolerance, 2), std::vector<Rgb>(2, Rgb(0.0f)));
+        EXPECT_TRUE(sumAt(sum, {}, tolerance, 2).empty());
+    }
+}
+
+// A channel without light stays without, beside bright ones.
+TEST(DiffusionSum, DarkChannelStaysDark) {
+    const Optics optics("skin1");
+    const TriangleMesh mesh = makeSphere(6);
+    const LitCloud cloud(mesh, 0.4, [](const Vec3& p) { return Rgb(p.x > 0 ? 1 : 0, 0, 1); });
+    const KernelTable table = cloud.table(optics, 13);
+    const DiffusionSum sum(cloud.view(), cloud.nodes, table);
+    const std::vector<Vec3> receivers = placesOn(mesh, 256, 2);
+    const auto sums = sumAt(sum, receivers, 0.01, 32);
+    Deviations deviations(0.01);
+    for (std::size_t i = 0; i < receivers.size(); ++i) {
+        EXPECT_EQ(sums[i].y, 0.0f);
+        deviations.add(sums[i], sum.bruteForce(receivers[i]));
+    }
+    EXPECT_EQ(deviations.shareOutside(), 0);
+}
+
+}  // namespace
+}  // namespace sss

@@ -1,0 +1,217 @@
+#include "sss/integrate/cloud_cache.h"
+
+#include "unit/integrate/pass_maker.h"
+
+#include "sss/base/error.h"
+#include "sss/integrate/scene_fingerprint.h"
+#include "support/temporary_folder.h"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <set>
+
+namespace sss {
+namespace {
+
+using testing::MadeClouds;
+using testing::measured;
+using testing::SceneMaker;
+using testing::TemporaryFolder;
+
+SceneMaker smallScene() {
+    SceneMaker maker;
+    maker.object(SphereShape{3}, maker.material(measured("Marble")));
+    maker.object(RectangleShape{20, 20}, maker.material(LambertianMaterial{}),
+                 testing::moved({0, 0, -6}));
+    maker.light(DirectionalLight{{0, -1, -1}, Rgb(2)});
+    maker.scene.quality.spacingMm = 0.7;
+    maker.scene.quality.bounces = 1;
+    maker.scene.quality.irradianceSamples = 12;
+    return maker;
+}
+
+std::vector<InputFingerprint> inputsOf(const Scene& scene) {
+    SilentReporter silent;
+    const World world(scene, silent);
+    const auto optics = makeBodyOptics(world);
+    return bodyInputs(world, 0, pointSpacingMm(world, world.bodies()[0], *optics[0]));
+}
+
+TEST(SceneFingerprint, NamesExactlyWhatChanged) {
+    struct Change {
+        const char* what;
+        std::function<void(Scene&)> make;
+        std::set<std::string> keys;
+    };
+    const Change changes[] = {
+        {"nothing", [](Scene&) {}, {}},
+        {"camera", [](Scene& s) { s.camera.position = {1, 2, 30}; }, {}},
+        {"film", [](Scene& s) { s.film.samples = 7, s.film.width = 99; }, {}},
+        {"roughness of the boundary",
+         [](Scene& s) { std::get<TranslucentMaterial>(s.materials[0].material).roughness = 0.4; },
+         {}},
+        {"names", [](Scene& s) { s.objects[0].name = "ball", s.materials[0].name = "stone"; }, {}},
+        {"light", [](Scene& s) { std::get<DirectionalLight>(s.lights[0]).irradiance.y = 3; },
+         {"lights"}},
+        {"another light", [](Scene& s) { s.lights.emplace_back(PointLight{}); }, {"lights"}},
+        {"mesh", [](Scene& s) { s.objects[0].shape = SphereShape{3.01}; }, {"mesh"}},
+        {"medium",
+         [](Scene& s) { std::get<TranslucentMaterial>(s.materials[0].material).medium.sigmaA.z = 1; },
+         {"medium"}},
+        {"spacing", [](Scene& s) { s.quality.spacingMm = 0.8; }, {"sampling"}},
+        {"seed", [](Scene& s) { s.quality.seed = 5; }, {"sampling"}},
+        {"light samples", [](Scene& s) { s.quality.irradianceSamples = 24; }, {"irradiance"}},
+        {"bounces", [](Scene& s) { s.quality.bounces = 2; }, {"irradiance"}},
+        {"neighbour's place",
+         [](Scene& s) { s.objects[1].transform = {testing::moved({0, 0, -7})}; },
+         {"surroundings"}},
+        {"neighbour's colour",
+         [](Scene& s) { s.materials[1].material = LambertianMaterial{Rgb(0.1f)}; },
+         {"surroundings"}},
+        {"its own place",
+         [](Scene& s) { s.objects[0].transform = {testing::turned(5, {0, 1, 0})}; },
+         {"surroundings"}},
+        {"a new neighbour",
+         [](Scene& s) {
+             s.objects.push_back(s.objects[1]);
+             s.objects.back().transform = {testing::moved({0, 0, -8})};
+         },
+         {"surroundings"}},
+    };
+    const auto before = inputsOf(smallScene().scene);
+    for (const Change& change : changes) {
+        SCOPED_TRACE(change.what);
+        Scene scene = smallScene().scene;
+        change.make(scene);
+        const auto after = inputsOf(scene);
+        ASSERT_EQ(after.size(), before.size());
+        std::set<std::string> keys;
+        for (std::size_t i = 0; i < after.size(); ++i) {
+            EXPECT_EQ(after[i].key, before[i].key);
+            if (!(after[i].value == before[i].value)) keys.insert(after[i].key);
+        }
+        EXPECT_EQ(keys, change.keys);
+    }
+}
+
+struct Written {
+    SceneMaker maker;
+    World world;
+    std::vector<std::unique_ptr<BodyOptics>> optics;
+    MadeClouds made;
+
+    explicit Written(const std::filesystem::path& path)
+        : maker(smallScene()), world(maker.world()), optics(makeBodyOptics(world)), made(world, optics) {
+        writeCloudCache(path, world, made.clouds, made.reports, optics);
+    }
+};
+
+std::string refusal(const std::filesystem::path& path, const Scene& scene) {
+    SilentReporter silent;
+    const World world(scene, silent);
+    const auto optics = makeBodyOptics(world);
+    try {
+        const CloudCache cache(path, world, optics);
+    } catch (const Error& error) {
+        EXPECT_EQ(error.kind(), ErrorKind::BadInput);
+        return error.what();
+    }
+    return "not refused";
+}
+
+TEST(CloudCache, GivesThePictureOfTheCloudsInMemory) {
+    const TemporaryFolder folder;
+    const Written written(folder / "a.ssc");
+    const CloudCache cache(folder / "a.ssc", written.world, written.optics);
+    const LayeredImage file = testing::renderFrom(written.world, written.optics,
+                                                  [&](std::size_t b) { return cache.view(b); });
+    const LayeredImage memory = testing::renderFrom(
+        written.world, written.optics,
+        [&](std::size_t b) { return written.made.clouds[b].view(); });
+    for (const ImageLayer& layer : memory.layers)
+        EXPECT_EQ(file.find(layer.name)->values, layer.values) << layer.name;
+}
+
+TEST(CloudCache, OfAnotherSceneIsRefusedWithTheReason) {
+    const TemporaryFolder folder;
+    const Written written(folder / "a.ssc");
+    EXPECT_EQ(refusal(folder / "a.ssc", written.maker.scene), "not refused");
+    const auto expectRefused = [&](const char* word, const std::function<void(Scene&)>& change) {
+        Scene scene = written.maker.scene;
+        change(scene);
+        const std::string message = refusal(folder / "a.ssc", scene);
+        EXPECT_NE(message.find("made for another scene"), std::string::npos) << message;
+        EXPECT_NE(message.find(word), std::string::npos) << message;
+    };
+    expectRefused("mesh", [](Scene& s) { s.objects[0].shape = SphereShape{4}; });
+    expectRefused("lights", [](Scene& s) { s.lights.clear(); });
+    expectRefused("medium", [](Scene& s) { s.materials[0].material = measured("Ketchup"); });
+    expectRefused("stands elsewhere", [](Scene& s) { s.objects.pop_back(); });
+    expectRefused("spacing", [](Scene& s) { s.quality.spacingMm = 0.5; });
+    expectRefused("1 translucent objects, the scene has 2", [](Scene& s) {
+        s.objects.push_back(s.objects[0]);
+        s.objects.back().name = "second";
+        s.objects.back().transform = {testing::moved({10, 0, 0})};
+    });
+}
+
+// The file is whole, but what it says would send us out of bounds.
+TEST(CloudCache, OctreeThatDoesNotFitIsRefused) {
+    using Nodes = std::vector<OctreeNode>;
+    const TemporaryFolder folder;
+    const Written written(folder / "good.ssc");
+    const CacheFile good = CacheFile::open(folder / "good.ssc");
+    const std::function<void(Nodes&)> damages[] = {
+        [](Nodes& n) { n[0].first = static_cast<std::uint32_t>(n.size()); },
+        [](Nodes& n) { n[0].first = 0; },  // its own child: never ends
+        [](Nodes& n) { n[0].first = 0xffffffffu; },
+        [](Nodes& n) { n[0].count = 0x7fffffffu; },
+        [](Nodes& n) { n.back().first = 0x7fffffffu; },
+        [](Nodes& n) { n.back().count = 0xffffffffu; },
+        [](Nodes& n) { n.clear(); },
+    };
+    for (const auto& damage : damages) {
+        const auto stored = good.section<OctreeNode>("octree", 0);
+        Nodes nodes(stored.begin(), stored.end());
+        damage(nodes);
+        CacheWriter writer(folder / "bad.ssc");
+        writer.add<SurfacePoint>("points", 0, {}, good.section<SurfacePoint>("points", 0));
+        writer.add<Rgb>("irrad", 0, {}, good.section<Rgb>("irrad", 0));
+        writer.add<OctreeNode>("octree", 0, {}, nodes);
+        writer.addText("meta", 0, {}, good.text("meta", 0));
+        writer.commit();
+        const std::string message = refusal(folder / "bad.ssc", written.maker.scene);
+        EXPECT_NE(message.find("octree of body 0 does not fit"), std::string::npos) << message;
+    }
+}
+
+TEST(CloudCache, MetadataThatIsNotOursIsRefused) {
+    const TemporaryFolder folder;
+    const Written written(folder / "good.ssc");
+    const CacheFile good = CacheFile::open(folder / "good.ssc");
+    for (const char* meta : {"{}", "[]", R"({"bodies": 3})", R"({"bodies": [7]})",
+                             R"({"bodies": [{"inputs": 1}]})", "not json"}) {
+        CacheWriter writer(folder / "bad.ssc");
+        writer.add<SurfacePoint>("points", 0, {}, good.section<SurfacePoint>("points", 0));
+        writer.addText("meta", 0, {}, meta);
+        writer.commit();
+        EXPECT_NE(refusal(folder / "bad.ssc", written.maker.scene), "not refused") << meta;
+    }
+}
+
+TEST(CloudCache, DescribesItself) {
+    const TemporaryFolder folder;
+    const Written written(folder / "a.ssc");
+    const JsonValue info = describeCache(folder / "a.ssc");
+    EXPECT_EQ(info.find("format")->value.asNumber(), 1);
+    EXPECT_EQ(info.find("bodies")->value.items().size(), 1u);
+    const JsonValue& body = info.find("bodies")->value.items()[0];
+    EXPECT_EQ(body.find("points")->value.asNumber(),
+              static_cast<double>(written.made.clouds[0].points.size()));
+    EXPECT_EQ(body.find("meanFreePathMm")->value.items().size(), 3u);
+    EXPECT_EQ(info.find("sections")->value.items().size(), 4u);
+}
+
+}  // namespace
+}  // namespace sss

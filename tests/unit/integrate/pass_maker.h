@@ -1,0 +1,63 @@
+#pragma once
+#include "unit/integrate/scene_maker.h"
+
+#include "sss/integrate/preprocess.h"
+#include "sss/integrate/renderer.h"
+
+#include <gtest/gtest.h>
+
+namespace sss::testing {
+
+/// Pass 1 of all bodies of a world.
+struct MadeClouds {
+    std::vector<BodyCloud> clouds;
+    std::vector<BodyReport> reports;
+
+    MadeClouds(const World& world, std::span<const std::unique_ptr<BodyOptics>> optics) {
+        SilentReporter silent;
+        for (int b = 0; b < static_cast<int>(world.bodies().size()); ++b) {
+            BodyReport& report = reports.emplace_back();
+            SurfaceSamples samples = placePoints(world, b, *optics[static_cast<std::size_t>(b)], {},
+                                                 silent, report);
+            std::vector<Rgb> irradiance = lightPoints(world, b, samples, optics, silent, report);
+            clouds.push_back(buildCloud(std::move(samples), std::move(irradiance), report));
+        }
+    }
+};
+
+/// Pass 2 from clouds, `view(body)` each.
+template <typename View>
+LayeredImage renderFrom(const World& world, std::span<const std::unique_ptr<BodyOptics>> optics,
+                        const View& view) {
+    std::vector<std::unique_ptr<BodyField>> fields;
+    for (std::size_t b = 0; b < world.bodies().size(); ++b)
+        fields.push_back(std::make_unique<BodyField>(world.bodies()[b], *optics[b], view(b),
+                                                     world.scene().quality.tolerance));
+    SilentReporter silent;
+    RenderResult result = render(world, optics, fields, silent);
+    EXPECT_EQ(result.dropped.samples, 0u);
+    return std::move(result.image);
+}
+
+/// Both passes.
+inline LayeredImage picture(const Scene& scene) {
+    SilentReporter silent;
+    const World world(scene, silent);
+    const auto optics = makeBodyOptics(world);
+    const MadeClouds made(world, optics);
+    return renderFrom(world, optics, [&](std::size_t b) { return made.clouds[b].view(); });
+}
+
+/// One channel of a pixel of a layer ("" is the beauty).
+inline double value(const LayeredImage& image, const char* layer, int x, int y, int channel) {
+    const ImageLayer* found = image.find(layer);
+    if (!found) {
+        ADD_FAILURE() << "no layer " << layer;
+        return 0;
+    }
+    const auto pixel = static_cast<std::size_t>(y * image.width + x);
+    return static_cast<double>(
+        found->values[pixel * found->channels.size() + static_cast<std::size_t>(channel)]);
+}
+
+}  // namespace sss::testing
