@@ -25,7 +25,7 @@ constexpr int kStepsPerDecade = 20;
 constexpr int kColumn = 25;
 
 std::string number(double value) { return fmt::format("{:.16e}", value); }
-std::string triple(const DRgb& v) { return fmt::format("{:.17g} {:.17g} {:.17g}", v.x, v.y, v.z); }
+std::string triple(const DRgb& v) { return fmt::format("{} {} {}", v.x, v.y, v.z); }
 
 const ProfileKind& kindOf(const std::string& model) {
     std::vector<std::string_view> names;
@@ -95,7 +95,7 @@ void printHead(const ProfileSubject& subject, const Profiles& profiles) {
     line(fmt::format("boundary {}",
                      subject.options.boundary == BoundaryModel::Exact ? "exact" : "polynomial"));
     if (subject.options.slabThicknessMm)
-        line(fmt::format("thickness_mm {:.17g}", *subject.options.slabThicknessMm));
+        line(fmt::format("thickness_mm {}", *subject.options.slabThicknessMm));
     DRgb reduced, albedo, total, transfer;
     for (int c = 0; c < 3; ++c) {
         reduced[c] = m.channel(c).sigmaSPrime();
@@ -107,7 +107,7 @@ void printHead(const ProfileSubject& subject, const Profiles& profiles) {
     line("sigma_s_mm^-1 " + triple(m.sigmaS));
     line("sigma_s_prime_mm^-1 " + triple(reduced));
     line("g " + triple(m.g));
-    line(fmt::format("eta {:.17g}", m.eta));
+    line(fmt::format("eta {}", m.eta));
     line("reduced_albedo " + triple(albedo));
     line("mean_free_path_mm " + triple(m.meanFreePathMm()));
     line("total " + triple(total));

@@ -1,6 +1,7 @@
 #include "sss/cloud/kernel_table.h"
 
 #include "sss/base/parallel.h"
+#include "sss/optics/gauss_legendre.h"
 
 #include <algorithm>
 #include <bit>
@@ -25,14 +26,15 @@ double arcInsideDisk(double s, double r, double a) {
     return 2.0 * std::acos(std::clamp((r * r + s * s - a * a) / (2.0 * r * s), -1.0, 1.0));
 }
 
-// How a profile grows at r = 0: inverse / r + logarithm log(4 a / r), a the radius of the cell.
-// Beam diffusion has only the logarithm, the other singular profiles both or only the first.
+// How a profile grows at r = 0: inverse / r + logarithm log(reach / r). Beam diffusion has only the
+// logarithm, the other singular profiles both or only the first.
 struct Singularity {
     double inverse = 0, logarithm = 0;
     double cellRadius = 1;
-    // Windowed to 4 cell radii, times s: without the infinity at 0.
+    double reach = 4;
+    // Windowed, times s: without the infinity at 0.
     double timesRadius(double s) const {
-        const double x = s / (4.0 * cellRadius);
+        const double x = s / reach;
         return x > 0.0 ? (inverse - logarithm * s * std::log(x)) * fade(x) : inverse;
     }
 };
@@ -50,7 +52,12 @@ Singularity singularityOf(const Profile& profile, double a) {
     const double i1 = 1.0 / r1 - 1.0 / r3, i2 = 1.0 / r2 - 1.0 / r3;
     const double l1 = std::log(r3 / r1), l2 = std::log(r3 / r2);
     const double determinant = i1 * l2 - i2 * l1;
-    return {(d1 * l2 - d2 * l1) / determinant, (i1 * d2 - i2 * d1) / determinant, a};
+    Singularity out{(d1 * l2 - d2 * l1) / determinant, (i1 * d2 - i2 * d1) / determinant, a,
+                    4.0 * a};
+    if (out.logarithm >= 0.0) return out;
+    // A negative logarithm must not make the whole negative.
+    out.reach = std::min(out.reach, -out.inverse / out.logarithm);
+    return out.reach > 0.0 ? out : Singularity{0.0, 0.0, a, 4.0 * a};
 }
 
 // Mean of the windowed singularity over a disk of radius a at distance r from its point:
@@ -60,11 +67,11 @@ double averaged(const Singularity& singularity, double r) {
     const double inner = std::abs(a - r), outer = a + r;
     double sum = 0;
     if (r < a) {
-        constexpr int kSteps = 24;  // whole circles; s = inner t^2 tames s log s
-        for (int i = 0; i < kSteps; ++i) {
-            const double t = (i + 0.5) / kSteps;
-            sum += singularity.timesRadius(inner * t * t) * 2.0 * kPi * 2.0 * inner * t / kSteps;
-        }
+        // Whole circles; s = end t^2 tames s log s, and the window may end before the circles do.
+        const double end = std::min(inner, singularity.reach);
+        sum += gauss16(0.0, 1.0, [&](double t) {
+            return singularity.timesRadius(end * t * t) * 4.0 * kPi * end * t;
+        });
     }
     // The arc has square-root ends: s = mid - half cos(phi) makes the integrand smooth.
     constexpr int kSteps = 48;

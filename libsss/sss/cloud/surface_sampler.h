@@ -11,16 +11,17 @@ namespace sss {
 /// which each cell is made.
 struct SurfaceSamples {
     std::vector<SurfacePoint> points;
-    SurfaceStrata strata;                   ///< grouped by the point that owns them, in its order
+    SurfaceStrata strata;                     ///< grouped by the point that owns them, in its order
     std::vector<std::uint32_t> firstStratum;  ///< per point, and one past the end
 
     std::size_t size() const { return points.size(); }
 };
 
 struct SamplerOptions {
-    double spacingMm = 1;          ///< asked-for sqrt(area / points)
+    double spacingMm = 1;  ///< asked-for sqrt(area / points)
     std::uint64_t seed = 0;
     std::size_t strataPerPoint = 12;
+    std::uint32_t areaParts = 4;     ///< areas and centroids take this many times as many strata
     std::size_t fewestPoints = 256;  ///< on a body smaller than the spacing
 };
 

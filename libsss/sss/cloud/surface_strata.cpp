@@ -5,6 +5,7 @@
 #include "sss/cloud/morton.h"
 
 #include <algorithm>
+#include <numbers>
 #include <numeric>
 
 namespace sss {
@@ -16,7 +17,8 @@ std::vector<FaceIndex> facesInSpaceOrder(const TriangleMesh& mesh) {
     Bounds box;
     for (FaceIndex f = 0; f < mesh.faceCount(); ++f) {
         const UVec3 v = mesh.faces[f];
-        centroids[f] = Vec3((mesh.positions[v.x] + mesh.positions[v.y] + mesh.positions[v.z]) / 3.0);
+        centroids[f] =
+            Vec3((mesh.positions[v.x] + mesh.positions[v.y] + mesh.positions[v.z]) / 3.0);
         box.add(centroids[f]);
     }
     const MortonGrid grid(box);
@@ -24,7 +26,8 @@ std::vector<FaceIndex> facesInSpaceOrder(const TriangleMesh& mesh) {
     for (FaceIndex f = 0; f < mesh.faceCount(); ++f) keyed[f] = {grid.code(centroids[f]), f};
     std::sort(keyed.begin(), keyed.end());
     std::vector<FaceIndex> order(mesh.faceCount());
-    std::transform(keyed.begin(), keyed.end(), order.begin(), [](const auto& k) { return k.second; });
+    std::transform(keyed.begin(), keyed.end(), order.begin(),
+                   [](const auto& k) { return k.second; });
     return order;
 }
 
@@ -48,7 +51,8 @@ DVec2 triangleFromSquare(double x, double y) {
 
 }  // namespace
 
-SurfaceStrata makeStrata(const TriangleMesh& mesh, std::size_t count, std::uint64_t seed) {
+SurfaceStrata makeStrata(const TriangleMesh& mesh, std::size_t count, std::uint64_t seed,
+                         const StrataPart& part) {
     const std::vector<FaceIndex> order = facesInSpaceOrder(mesh);
     std::vector<double> cumulative(order.size() + 1, 0.0);
     for (std::size_t k = 0; k < order.size(); ++k)
@@ -60,12 +64,13 @@ SurfaceStrata makeStrata(const TriangleMesh& mesh, std::size_t count, std::uint6
     strata.positions.resize(count);
     strata.faces.resize(count);
     strata.barycentrics.resize(count);
+    const double start = (part.index + Rng(combineSeeds(seed, count)).uniformDouble()) /
+                         static_cast<double>(part.of);
     parallelFor(count, 4096, [&](std::size_t begin, std::size_t end) {
         std::size_t k = 0;
         for (std::size_t i = begin; i < end; ++i) {
-            Rng rng(combineSeeds(seed, i));
             const double along =
-                (static_cast<double>(i) + rng.uniformDouble()) / static_cast<double>(count) * total;
+                (static_cast<double>(i) + start) / static_cast<double>(count) * total;
             if (i == begin)
                 k = static_cast<std::size_t>(
                         std::upper_bound(cumulative.begin(), cumulative.end() - 1, along) -
@@ -74,9 +79,11 @@ SurfaceStrata makeStrata(const TriangleMesh& mesh, std::size_t count, std::uint6
             while (k + 1 < order.size() && cumulative[k + 1] <= along) ++k;
             const double faceShare = cumulative[k + 1] - cumulative[k];
             const double x = std::clamp((along - cumulative[k]) / faceShare, 0.0, 1.0);
-            // A per-face rotation keeps the Hammersley sets of neighbouring faces from lining up.
+            // A per-face rotation keeps the Hammersley sets of neighbouring faces from lining up;
+            // parts stand apart by the golden ratio.
             const double shift = Rng(combineSeeds(seed ^ 0x5bd1e995u, order[k])).uniformDouble();
-            double y = radicalInverse(static_cast<std::uint32_t>(i)) + shift;
+            double y = radicalInverse(static_cast<std::uint32_t>(i)) + shift +
+                       part.index * (std::numbers::phi - 1.0);
             y -= std::floor(y);
             const DVec2 b = triangleFromSquare(x, y);
             const UVec3 v = mesh.faces[order[k]];

@@ -44,7 +44,8 @@ DMat4 fitted(const FitStep& fit, const DMat4& before, const TriangleMesh& mesh,
              const std::string& name) {
     DBounds box;
     for (const DVec3& p : mesh.positions) box.add(transformed(before, p));
-    if (!(box.size().y > 0))
+    // A flat object that was rotated has a height of rounding.
+    if (!(box.size().y > 1e-9 * box.diagonal()))
         throw Error(ErrorKind::BadInput, name, "cannot be fitted to a height: it is flat in y",
                     "rotate it before the fit, or use a scale");
     const double scale = fit.heightMm / box.size().y;

@@ -51,8 +51,8 @@ struct LitCloud {
             DRgb sum{0};
             for (std::uint32_t s = samples.firstStratum[p]; s < samples.firstStratum[p + 1]; ++s)
                 sum += DRgb(light(samples.strata.positions[s]));
-            irradiance.push_back(
-                Rgb(sum / static_cast<double>(samples.firstStratum[p + 1] - samples.firstStratum[p])));
+            irradiance.push_back(Rgb(
+                sum / static_cast<double>(samples.firstStratum[p + 1] - samples.firstStratum[p])));
         }
         nodes = buildOctree(view());
     }
@@ -115,7 +115,7 @@ inline std::vector<Rgb> sumAt(const DiffusionSum& sum, std::span<const Vec3> rec
 /// Integral over directions phi of (1 / 2 pi) f(distance to the edge along phi): what a plane patch
 /// sends to a place on it if f is cum(a) = total - tail(a), or what it lacks if f is tail(a).
 inline double overDirections(const std::function<double(double)>& f) {
-    constexpr int kSteps = 4096;
+    constexpr int kSteps = 720;
     double sum = 0;
     for (int i = 0; i < kSteps; ++i) sum += f((i + 0.5) / kSteps * 2.0 * kPi);
     return sum / kSteps;

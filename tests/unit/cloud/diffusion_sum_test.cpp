@@ -39,8 +39,10 @@ std::vector<Case> cases() {
          {std::pair{"marble", 0.75}, {"skimmilk", 0.75}, {"ketchup", 0.45}}) {
         const double l = Optics(medium).smallestMfp();
         all.push_back({"terminator", medium, makeSphere(18 * l), fromOneSide, perMfp, false});
-        all.push_back({"light edge", medium, makeRectangle(50 * l, 25 * l), halfPlane, perMfp, true});
-        all.push_back({"red and blue", medium, makeRectangle(40 * l, 25 * l), redAndBlue, perMfp, true});
+        all.push_back(
+            {"light edge", medium, makeRectangle(50 * l, 25 * l), halfPlane, perMfp, true});
+        all.push_back(
+            {"red and blue", medium, makeRectangle(40 * l, 25 * l), redAndBlue, perMfp, true});
     }
     return all;
 }

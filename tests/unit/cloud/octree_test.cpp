@@ -39,7 +39,8 @@ Cloud randomCloud(std::size_t count, std::uint64_t seed) {
     Cloud cloud;
     for (std::size_t i = 0; i < count; ++i) {
         const Vec3 p{rng.uniform() * 30 - 10, rng.uniform() * 10, rng.uniform() * rng.uniform()};
-        cloud.add(p, 0.5f + rng.uniform(), {rng.uniform(), 2 * rng.uniform(), 0.01f * rng.uniform()});
+        cloud.add(p, 0.5f + rng.uniform(),
+                  {rng.uniform(), 2 * rng.uniform(), 0.01f * rng.uniform()});
     }
     return cloud.sorted();
 }
@@ -177,8 +178,7 @@ TEST(Octree, CoincidentPointsShareALeaf) {
     EXPECT_EQ(nodes[0].radius(), 0.0f);
 
     // With others around them.
-    for (int i = 0; i < 50; ++i)
-        cloud.add({0.1f * static_cast<float>(i), 2, 3}, 1.0f, Rgb(2.0f));
+    for (int i = 0; i < 50; ++i) cloud.add({0.1f * static_cast<float>(i), 2, 3}, 1.0f, Rgb(2.0f));
     const Cloud mixed = cloud.sorted();
     expectSound(mixed, buildOctree(mixed.view()));
 }

@@ -1,5 +1,5 @@
-// The whole chain (points, cells, octree, sum) against integrals in closed form. h is the spacing of
-// the points, l the smallest transport mean free path; h / l = 0.75 (marble, milk) and 0.45 (low
+// The whole chain (points, cells, octree, sum) against integrals in closed form. h is the spacing
+// of the points, l the smallest transport mean free path; h / l = 0.75 (marble, milk) and 0.45 (low
 // albedo) is what the default tolerance of 1 % gives.
 #include "cloud_tools.h"
 #include "sss/base/rng.h"
@@ -196,25 +196,22 @@ double lineSpread(const ChannelMedium& m, double boundary, double x) {
 
 // M / E at x on a plane lit where x > 0: half the total plus the line spread from 0 to x.
 double edgeResponse(const Profile& profile, const ChannelMedium& m, double boundary, double x) {
-    constexpr int kSteps = 2000;
+    constexpr int kSteps = 200;
     double sum = 0;
     for (int i = 0; i < kSteps; ++i)
         sum += lineSpread(m, boundary, (i + 0.5) / kSteps * x) * x / kSteps;
     return 0.5 * profile.total() + sum;
 }
 
-// Distance along `phi` from a place at p to where the lit part x > 0 of the disk of radius `a` ends
-// or 0 < start where it begins: what the patch lacks of the lit half-plane is the tail beyond.
+// What the lit half x > 0 of a disk of radius `a` lacks of the lit half-plane, seen from p along
+// `phi`: the lit part of the ray beyond the rim.
 double lackingBeyond(const Vec3& p, double a, double phi, const Profile& profile) {
     const double dx = std::cos(phi), dy = std::sin(phi);
     const double b = p.x * dx + p.y * dy;
-    const double out = -b + std::sqrt(b * b + a * a - p.x * p.x - p.y * p.y);
-    const double edge = -p.x / dx;  // where the ray crosses x = 0; negative: never
-    const bool startsLit = p.x > 0;
-    if (startsLit)
-        return edge > 0 ? (edge > out ? profile.tail(out) - profile.tail(edge) : 0.0)
-                        : profile.tail(out);
-    return edge > 0 ? profile.tail(std::max(out, edge)) : 0.0;
+    const double rim = -b + std::sqrt(b * b + a * a - p.x * p.x - p.y * p.y);
+    const double edge = -p.x / dx;  // where the ray crosses x = 0, if positive
+    if (dx > 0) return profile.tail(std::max(rim, edge));
+    return p.x > 0 && edge > rim ? profile.tail(rim) - profile.tail(edge) : 0.0;
 }
 
 TEST(Quadrature, HalfPlaneEdge) {

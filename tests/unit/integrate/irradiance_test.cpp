@@ -110,7 +110,8 @@ TEST(Irradiance, OfAPlaneUnderTheSun) {
 TEST(Irradiance, UnderAPointLight) {
     SceneMaker maker = withBox({0.2, 0.2, 0.2}, moved({0, -0.1, 0}));
     maker.light(PointLight{{3, 4, 0}, Rgb(7)});
-    const double cosine = 0.8, expected = 7 * cosine / 25 * entering(cosine);
+    const double cosine = 0.8, metres = 0.005;
+    const double expected = 7 * cosine / (metres * metres) * entering(cosine);
     EXPECT_NEAR(light(maker, 0.02).mean({0, 1, 0}), expected, 1e-3 * expected);
 }
 

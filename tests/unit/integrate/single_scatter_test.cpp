@@ -166,7 +166,7 @@ TEST(SingleScattering, UnderAConstantSky) {
                 });
             });
         }
-        expectWithin(Experiment(maker).run(direction(40, 10)), expected, 0.01);
+        expectWithin(Experiment(maker).run(direction(40, 10), 8192), expected, 0.01);
     }
 }
 

@@ -118,9 +118,9 @@ TEST(Energy, AMediumMadeFromAColorShowsThatColor) {
             const auto profile = makeProfile(model, medium);
             const double scale =
                 multipleScatterScale(*profile, medium, EnergyConvention::Consistent, color);
-            EXPECT_NEAR(scale * profile->total() +
-                            singleScatterAlbedo(medium, Illumination::Diffuse),
-                        color, 1e-6);
+            EXPECT_NEAR(
+                scale * profile->total() + singleScatterAlbedo(medium, Illumination::Diffuse),
+                color, 1e-6);
             EXPECT_EQ(multipleScatterScale(*profile, medium, EnergyConvention::Jensen, color), 1.0);
         }
     }

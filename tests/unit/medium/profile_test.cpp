@@ -89,7 +89,7 @@ TEST(Profile, FiniteNonNegativeDecreasingAndAtMostOne) {
 TEST(Profile, TailIsTheQuadratureOfTheProfile) {
     for (const Subject& subject : subjects()) {
         RandomMedia media(12);
-        for (int i = 0; i < std::min(subject.media, 40); ++i) {
+        for (int i = 0; i < std::min(subject.media, 12); ++i) {
             const ChannelMedium medium = media.next();
             const auto profile =
                 make(subject.name, medium, media.between(1.5, 30) * medium.meanFreePathMm());
@@ -189,7 +189,7 @@ TEST(Profile, DerivativeBoundsHoldAndAreNear) {
 TEST(Profile, SinglePrecisionBatchAgrees) {
     for (const Subject& subject : subjects()) {
         RandomMedia media(14);
-        for (int i = 0; i < std::min(subject.media, 12); ++i) {
+        for (int i = 0; i < std::min(subject.media, 6); ++i) {
             const ChannelMedium medium = media.next();
             const auto profile =
                 make(subject.name, medium, media.between(1.5, 30) * medium.meanFreePathMm());

@@ -24,7 +24,7 @@ protected:
         folder_ = std::filesystem::temp_directory_path() /
                   ("sss_tabulated_" + std::to_string(::getpid()));
         options_.tabulatedCacheFolder = folder_;
-        options_.tabulatedError = 0.01;  // quick
+        options_.tabulatedError = 0.02;  // quick
     }
     ~TabulatedTest() override { std::filesystem::remove_all(folder_); }
 
@@ -39,7 +39,7 @@ TEST_F(TabulatedTest, TotalIsTheTransferTotalWithinItsError) {
         const HalfSpaceTotals totals = halfSpaceTotals(kMedium);
         const double truth = illumination == Illumination::Normal ? totals.normal : totals.diffuse;
         EXPECT_NEAR(profile.total(), truth, 3 * profile.totalError());
-        EXPECT_LE(profile.totalError(), 0.01 * profile.total());
+        EXPECT_LE(profile.totalError(), 0.02 * profile.total());
         EXPECT_NEAR(profile.tail(0), profile.total(), 1e-9);
     }
 }
@@ -72,7 +72,7 @@ TEST_F(TabulatedTest, DecreasesSmoothlyAndScales) {
 TEST_F(TabulatedTest, RingsOfTheMarbleSimulation) {
     // Bin means per transmitted flux of an independent simulation, ground-truth.md section 4.
     options_.tabulatedIllumination = Illumination::Normal;
-    options_.tabulatedError = 0.005;
+    options_.tabulatedError = 0.006;
     const Tabulated profile({0.0041, 2.62, 0, 1.5}, options_);
     struct Ring {
         double lo, hi, mean;

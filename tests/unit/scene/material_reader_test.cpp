@@ -58,8 +58,7 @@ TEST(MaterialReader, TakesTheColourOfASlabFromItsThickLimit) {
 }
 
 TEST(MaterialReader, ReadsTheNamesOfOpenPbrInSceneUnits) {
-    const Scene scene = read({.units = "0.01",
-                              .materials = R"("milk": {"type": "translucent",
+    const Scene scene = read({.units = "0.01", .materials = R"("milk": {"type": "translucent",
         "subsurface_color": [0.9, 0.5, 0.1], "subsurface_radius": 0.2,
         "subsurface_scatter_anisotropy": 0.5, "specular_roughness": 0.3})"});
     const TranslucentMaterial& milk = translucent(scene);
@@ -76,8 +75,7 @@ TEST(MaterialReader, ReadsTheNamesOfOpenPbrInSceneUnits) {
 }
 
 TEST(MaterialReader, ReadsTheNamesOfThePrincipledShaderInSceneUnits) {
-    const Scene scene = read({.units = "1",
-                              .materials = R"("milk": {"type": "translucent",
+    const Scene scene = read({.units = "1", .materials = R"("milk": {"type": "translucent",
         "profile": "better_dipole", "boundary": "polynomial", "base_color": 0.6,
         "subsurface_ior": 1.3, "roughness": 0.4})"});
     const TranslucentMaterial& milk = translucent(scene);

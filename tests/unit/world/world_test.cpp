@@ -186,6 +186,7 @@ TEST(World, IsRecentred) {
         maker.object(SphereShape{5}, maker.material(measured("Marble")), moved(away));
         maker.object(RectangleShape{50, 50}, maker.material(LambertianMaterial{}),
                      moved(away + DVec3(0, 0, -9)));
+        maker.scene.camera.fovDegrees = 15;
         maker.scene.camera.position += away;
         maker.scene.camera.lookAt += away;
         return maker.world();
