@@ -1,6 +1,5 @@
 // sss-preprocess: pass 1. Wiring only; the work is in libsss.
 #include "options.h"
-
 #include "sss/app/pass_one.h"
 #include "sss/app/program.h"
 #include "sss/app/run_stats.h"
@@ -21,8 +20,7 @@ using namespace sss;
 
 void printNumber(const JsonValue& body, const char* key, const char* format) {
     const JsonMember* found = body.find(key);
-    if (found && found->value.isNumber())
-        fmt::print(fmt::runtime(format), found->value.asNumber());
+    if (found && found->value.isNumber()) fmt::print(fmt::runtime(format), found->value.asNumber());
 }
 
 void printInfo(const PreprocessOptions& options) {
@@ -67,10 +65,8 @@ void exportPoints(const std::filesystem::path& path, const World& world,
         const RigidTransform& move = world.bodies()[b].worldFromBody;
         for (std::size_t i = 0; i < clouds[b].points.size(); ++i) {
             const SurfacePoint& p = clouds[b].points[i];
-            positions.push_back(
-                Vec3(move.transformPoint(DVec3(p.position)) + world.originMm()));
-            normals.push_back(
-                Vec3(move.transformDirection(DVec3(decodeUnitVector(p.normal)))));
+            positions.push_back(Vec3(move.transformPoint(DVec3(p.position)) + world.originMm()));
+            normals.push_back(Vec3(move.transformDirection(DVec3(decodeUnitVector(p.normal)))));
             areas.push_back(p.areaMm2);
             irradiances.push_back(clouds[b].irradiance[i]);
         }
@@ -110,9 +106,10 @@ int run(int argc, const char* const* argv) {
         writeCloudCache(options->cache, *world, made.clouds, made.reports, optics);
     }
     stats.value("threads", ThreadLimit::current());
-    reporter.info("cache", fmt::format("wrote {} ({:.3g} MB)", options->cache.string(),
-                                       static_cast<double>(
-                                           std::filesystem::file_size(options->cache)) / 1e6));
+    reporter.info(
+        "cache",
+        fmt::format("wrote {} ({:.3g} MB)", options->cache.string(),
+                    static_cast<double>(std::filesystem::file_size(options->cache)) / 1e6));
     if (!options->stats.empty()) stats.writeStats(options->stats);
     if (options->strict) reporter.requireNoWarnings();
     return 0;

@@ -8,7 +8,7 @@
 struct PreprocessOptions {
     std::filesystem::path scene;
     std::filesystem::path cache;
-    std::filesystem::path info;       ///< --info: describe this cache and do nothing else
+    std::filesystem::path info;  ///< --info: describe this cache and do nothing else
     std::filesystem::path exportPly;
     std::filesystem::path stats;
     std::optional<double> spacingMm;
@@ -17,7 +17,7 @@ struct PreprocessOptions {
     std::optional<sss::BoundaryModel> boundary;
     std::optional<std::uint64_t> seed;
     std::uint64_t maxPoints = 20'000'000;
-    unsigned threads = 0;             ///< 0 = all cores
+    unsigned threads = 0;  ///< 0 = all cores
     bool json = false;
     bool quiet = false;
     bool strict = false;

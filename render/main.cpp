@@ -2,7 +2,6 @@
 #include "list_materials.h"
 #include "options.h"
 #include "print_profile.h"
-
 #include "sss/app/pass_one.h"
 #include "sss/app/program.h"
 #include "sss/app/run_stats.h"
@@ -149,16 +148,16 @@ int run(int argc, const char* const* argv) {
     {
         const auto timer = stats.seconds("render");
         for (std::size_t b = 0; b < world->bodies().size(); ++b)
-            fields.push_back(std::make_unique<BodyField>(world->bodies()[b], *optics[b],
-                                                         clouds.view(b),
-                                                         world->scene().quality.tolerance));
+            fields.push_back(std::make_unique<BodyField>(
+                world->bodies()[b], *optics[b], clouds.view(b), world->scene().quality.tolerance));
         result = render(*world, optics, fields, reporter);
     }
     if (result.dropped.samples > 0)
-        reporter.warn("render", fmt::format("{} camera samples were not finite and were left out, the "
-                                            "first in pixel {}, {}",
-                                            result.dropped.samples, result.dropped.firstX,
-                                            result.dropped.firstY));
+        reporter.warn(
+            "render",
+            fmt::format("{} camera samples were not finite and were left out, the "
+                        "first in pixel {}, {}",
+                        result.dropped.samples, result.dropped.firstX, result.dropped.firstY));
     addMetadata(result.image, *world, clouds, optics);
     {
         const auto timer = stats.seconds("write");

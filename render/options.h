@@ -8,7 +8,7 @@
 
 struct RenderOptions {
     std::filesystem::path scene;
-    std::filesystem::path cache;      ///< empty = made in memory
+    std::filesystem::path cache;  ///< empty = made in memory
     std::filesystem::path output;
     std::filesystem::path stats;
     std::optional<int> samples;
@@ -17,8 +17,8 @@ struct RenderOptions {
     std::optional<double> metersPerUnit;
     std::optional<std::uint64_t> seed;
     std::uint64_t maxPoints = 20'000'000;
-    unsigned threads = 0;             ///< 0 = all cores
-    ProfileRequest profile;           ///< its boundary holds for the scene's materials, too
+    unsigned threads = 0;    ///< 0 = all cores
+    ProfileRequest profile;  ///< its boundary holds for the scene's materials, too
     bool listMaterials = false;
     bool json = false;
     bool noPng = false;

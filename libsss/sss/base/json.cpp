@@ -260,10 +260,10 @@ JsonValue readJsonFile(const std::filesystem::path& file) {
     std::ifstream stream(file, std::ios::binary);
     const int reason = std::filesystem::is_directory(file, ignored) ? EISDIR : errno;
     if (!stream || reason == EISDIR) {
-        throw Error(ErrorKind::Io, name,
-                    fmt::format("the file cannot be opened: {}",
-                                std::generic_category().message(reason)),
-                    "check its name and that it may be read");
+        throw Error(
+            ErrorKind::Io, name,
+            fmt::format("the file cannot be opened: {}", std::generic_category().message(reason)),
+            "check its name and that it may be read");
     }
     std::string text;
     // One byte over the limit is enough for parseJson to refuse a file that never ends.

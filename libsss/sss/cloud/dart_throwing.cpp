@@ -41,7 +41,9 @@ public:
     }
 
 private:
-    std::uint32_t candidateCount(std::uint32_t cell) const { return first_[cell + 1] - first_[cell]; }
+    std::uint32_t candidateCount(std::uint32_t cell) const {
+        return first_[cell + 1] - first_[cell];
+    }
 
     // Candidates by cell, in random order within it.
     void listCandidates(std::uint64_t seed) {
@@ -91,15 +93,15 @@ private:
     std::span<const Vec3> positions_, normals_;
     CellGrid grid_;
     float radiusSquared_;
-    std::vector<std::uint32_t> first_;       // per cell, into candidates_
+    std::vector<std::uint32_t> first_;  // per cell, into candidates_
     std::vector<std::uint32_t> candidates_;
-    std::vector<std::uint32_t> chosen_;      // per cell, how many at its front
+    std::vector<std::uint32_t> chosen_;  // per cell, how many at its front
 };
 
 }  // namespace
 
-DartThrow throwDarts(std::span<const Vec3> positions, std::span<const Vec3> normals, double radiusMm,
-                     std::uint64_t seed) {
+DartThrow throwDarts(std::span<const Vec3> positions, std::span<const Vec3> normals,
+                     double radiusMm, std::uint64_t seed) {
     DartThrow result;
     result.blocker.assign(positions.size(), kNone);
     if (positions.empty()) return result;

@@ -15,10 +15,11 @@ namespace sss {
 /// Parallel dart throwing on a grid in 27 phases, after [Bowers et al. 2010]; the result depends on
 /// the candidates and the seed only. Near-linear: about 0.3 us a candidate.
 struct DartThrow {
-    std::vector<std::uint32_t> chosen;   ///< ascending candidate indices
-    std::vector<std::uint32_t> blocker;  ///< per candidate: the chosen one that covers it (itself if chosen)
+    std::vector<std::uint32_t> chosen;  ///< ascending candidate indices
+    std::vector<std::uint32_t>
+        blocker;  ///< per candidate: the chosen one that covers it (itself if chosen)
 };
-DartThrow throwDarts(std::span<const Vec3> positions, std::span<const Vec3> normals, double radiusMm,
-                     std::uint64_t seed);
+DartThrow throwDarts(std::span<const Vec3> positions, std::span<const Vec3> normals,
+                     double radiusMm, std::uint64_t seed);
 
 }  // namespace sss

@@ -14,7 +14,7 @@ namespace {
 // whose bounds are the tightest, keep errors within the tolerance and biases within a tenth of it
 // (diffusion_sum_test: half-lit and two-coloured bodies, marble, skim milk and ketchup, tolerances
 // 0.1 to 0.0001; groups of 32 stay below half of it).
-constexpr double kBoundSlack = 14.0;
+constexpr double kBoundSlack = 12.0;
 // Differences between the channels' moments have the same sign over whole regions (red light here,
 // blue there) and hardly cancel: they weigh this much more, so that their slack is near 1.
 constexpr float kChromaticWeight = 10.0f;

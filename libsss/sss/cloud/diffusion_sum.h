@@ -1,8 +1,8 @@
 #pragma once
 #include "sss/cloud/interactions.h"
+#include "sss/cloud/kernel_table.h"
 #include "sss/cloud/octree.h"
 #include "sss/cloud/point_cloud.h"
-#include "sss/cloud/kernel_table.h"
 
 #include <cstdint>
 #include <span>
@@ -31,7 +31,8 @@ struct SumCounts {
 /// tolerance 0 sums over all points.
 class DiffusionSum {
 public:
-    DiffusionSum(const CloudView& cloud, std::span<const OctreeNode> nodes, const KernelTable& table);
+    DiffusionSum(const CloudView& cloud, std::span<const OctreeNode> nodes,
+                 const KernelTable& table);
 
     /// Reusable memory of one thread.
     struct Scratch {
@@ -40,8 +41,8 @@ public:
         std::vector<DRgb> sums;
     };
 
-    /// `out[i]` = M at receivers[i] (mm, body space). The answer of a receiver depends on its group,
-    /// within the tolerance: callers that want repeatable bytes use fixed groups.
+    /// `out[i]` = M at receivers[i] (mm, body space). The answer of a receiver depends on its
+    /// group, within the tolerance: callers that want repeatable bytes use fixed groups.
     void evaluate(std::span<const Vec3> receivers, double tolerance, std::span<Rgb> out,
                   Scratch& scratch, SumCounts& counts) const;
     /// The sum over all points, in double: the oracle.
@@ -53,7 +54,8 @@ private:
         float radius;
     };
     DRgb estimate(const Group& group, Scratch& scratch, SumCounts& counts) const;
-    DRgb gather(const Group& group, const Rgb& threshold, Scratch& scratch, SumCounts& counts) const;
+    DRgb gather(const Group& group, const Rgb& threshold, Scratch& scratch,
+                SumCounts& counts) const;
     void gatherLeaf(const OctreeNode& node, Scratch& scratch) const;
 
     CloudView cloud_;

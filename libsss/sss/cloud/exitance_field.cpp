@@ -78,7 +78,8 @@ struct ExitanceField::Group {
     }
 
     // Lays out the grids of all patches; returns the positions of the unique sites.
-    std::vector<Vec3> layOut(const ExitanceSites& sites, std::span<const ExitanceSites::Patch> patches,
+    std::vector<Vec3> layOut(const ExitanceSites& sites,
+                             std::span<const ExitanceSites::Patch> patches,
                              std::uint32_t refinement) {
         std::unordered_map<Vec3, std::uint16_t, PositionHash> known;
         std::vector<Vec3> positions;
@@ -90,7 +91,8 @@ struct ExitanceField::Group {
             for (std::uint32_t j = 0; j <= n; ++j)
                 for (std::uint32_t i = 0; i + j <= n; ++i) {
                     const Vec3 p = sites.position(
-                        patch.face, patch.at({static_cast<float>(i) * step, static_cast<float>(j) * step}));
+                        patch.face,
+                        patch.at({static_cast<float>(i) * step, static_cast<float>(j) * step}));
                     const auto [place, isNew] =
                         known.try_emplace(p, static_cast<std::uint16_t>(positions.size()));
                     if (isNew) positions.push_back(p);
@@ -113,7 +115,8 @@ struct ExitanceField::Group {
                               b = values[site[siteIndex(i + 1, j, n)]],
                               c = values[site[siteIndex(i, j + 1, n)]];
                     const Rgb lo = glm::min(a, glm::min(b, c)), hi = glm::max(a, glm::max(b, c));
-                    const Vec2 centre = Vec2(static_cast<float>(i), static_cast<float>(j)) + Vec2(1.0f / 3.0f);
+                    const Vec2 centre =
+                        Vec2(static_cast<float>(i), static_cast<float>(j)) + Vec2(1.0f / 3.0f);
                     all.push_back({relative(hi - lo, hi), p, centre / static_cast<float>(n)});
                 }
         }
@@ -140,8 +143,8 @@ void sumAt(const DiffusionSum& sum, std::span<const Vec3> positions, double tole
     thread_local DiffusionSum::Scratch scratch;
     for (std::size_t begin = 0; begin < positions.size(); begin += kReceiversPerSum) {
         const std::size_t count = std::min(kReceiversPerSum, positions.size() - begin);
-        sum.evaluate(positions.subspan(begin, count), tolerance, values.subspan(begin, count), scratch,
-                     counts);
+        sum.evaluate(positions.subspan(begin, count), tolerance, values.subspan(begin, count),
+                     scratch, counts);
     }
 }
 
@@ -192,7 +195,8 @@ double ExitanceField::interpolationError(const Group& group,
     sumAt(sum_, positions, tolerance_, truth, spent.sums);
     float worst = 0;
     for (std::size_t k = 0; k < probes.size(); ++k)
-        worst = std::max(worst, relative(group.at(probes[k].patch, probes[k].inPatch) - truth[k], truth[k]));
+        worst = std::max(
+            worst, relative(group.at(probes[k].patch, probes[k].inPatch) - truth[k], truth[k]));
     return worst;
 }
 

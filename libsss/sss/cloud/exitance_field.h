@@ -27,7 +27,8 @@ struct ExitanceCounts {
 /// Thread-safe; a group is computed by whoever asks first, and comes out the same whoever that is.
 class ExitanceField {
 public:
-    /// All must outlive the field. `tolerance` 0 = no hierarchy, no refinement limit but the grid's.
+    /// All must outlive the field. `tolerance` 0 = no hierarchy, no refinement limit but the
+    /// grid's.
     ExitanceField(const TriangleMesh& mesh, const DiffusionSum& sum, double segmentMm,
                   double tolerance);
     ~ExitanceField();

@@ -35,7 +35,8 @@ std::vector<FaceIndex> spaceOrder(const TriangleMesh& mesh) {
     for (FaceIndex f = 0; f < mesh.faceCount(); ++f) keyed[f] = {grid.code(centres[f]), f};
     std::sort(keyed.begin(), keyed.end());
     std::vector<FaceIndex> order(mesh.faceCount());
-    std::transform(keyed.begin(), keyed.end(), order.begin(), [](const auto& k) { return k.second; });
+    std::transform(keyed.begin(), keyed.end(), order.begin(),
+                   [](const auto& k) { return k.second; });
     return order;
 }
 
@@ -130,8 +131,9 @@ ExitanceSites::Location ExitanceSites::locate(FaceIndex face, const Vec2& baryce
 }
 
 std::vector<ExitanceSites::Patch> ExitanceSites::patches(std::uint32_t group) const {
-    auto range = std::upper_bound(ranges_.begin(), ranges_.end(), group,
-                                  [](std::uint32_t g, const GroupRange& r) { return g < r.firstGroup; });
+    auto range =
+        std::upper_bound(ranges_.begin(), ranges_.end(), group,
+                         [](std::uint32_t g, const GroupRange& r) { return g < r.firstGroup; });
     --range;
     std::vector<Patch> result;
     if (range->cut) {

@@ -48,10 +48,10 @@ public:
 
 private:
     struct FaceEntry {
-        std::uint32_t group = 0;     // of its only patch, or of its first
-        std::uint16_t slot = 0;      // of its only patch within the group
-        std::uint16_t cuts = 1;      // patches along an edge
-        std::uint8_t segments = 1;   // of a patch
+        std::uint32_t group = 0;    // of its only patch, or of its first
+        std::uint16_t slot = 0;     // of its only patch within the group
+        std::uint16_t cuts = 1;     // patches along an edge
+        std::uint8_t segments = 1;  // of a patch
     };
     Patch subPatch(FaceIndex face, std::uint32_t index) const;
 

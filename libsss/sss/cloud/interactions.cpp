@@ -52,8 +52,9 @@ Rgb evaluateOne(const KernelTable& table, const InteractionList::Block& block, s
                 dz = receiver.z - block.z[i];
     const float u = dx * dx + dy * dy + dz * dz + table.offsetMm2();
     const auto bits = std::bit_cast<std::uint32_t>(u);
-    const auto row = std::min(static_cast<std::int32_t>(bits >> KernelTable::kShift) - table.baseRow(),
-                              static_cast<std::int32_t>(table.rowCount()) - 1);
+    const auto row =
+        std::min(static_cast<std::int32_t>(bits >> KernelTable::kShift) - table.baseRow(),
+                 static_cast<std::int32_t>(table.rowCount()) - 1);
     const KernelTable::Row& c = table.rows()[row];
     constexpr std::uint32_t mask = (1u << KernelTable::kShift) - 1;
     const float t = static_cast<float>(bits & mask) * (1.0f / static_cast<float>(mask + 1));
@@ -74,8 +75,8 @@ Rgb evaluateOne(const KernelTable& table, const InteractionList::Block& block, s
     const float k3 = t * (t * t + 3.0f * t * a + 6.0f * b);
     Rgb sum;
     for (int ch = 0; ch < 3; ++ch)
-        sum[ch] = block.flux[i][ch] *
-                  (c.c[0][ch] + k1 * c.c[1][ch] + k2 * c.c[2][ch] + k3 * c.c[3][ch]);
+        sum[ch] =
+            block.flux[i][ch] * (c.c[0][ch] + k1 * c.c[1][ch] + k2 * c.c[2][ch] + k3 * c.c[3][ch]);
     return sum;
 }
 

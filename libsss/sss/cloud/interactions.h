@@ -1,6 +1,6 @@
 #pragma once
-#include "sss/cloud/octree.h"
 #include "sss/cloud/kernel_table.h"
+#include "sss/cloud/octree.h"
 
 #include <cstddef>
 #include <span>

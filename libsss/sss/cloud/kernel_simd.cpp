@@ -33,7 +33,8 @@ HWY_ATTR void weigh(const KernelTable& table, const InteractionList::Block& bloc
                     const Vec3& receiver, Weights& out) {
     const hn::CappedTag<float, kBlock> d;
     const hn::RebindToSigned<decltype(d)> di;
-    const auto px = hn::Set(d, receiver.x), py = hn::Set(d, receiver.y), pz = hn::Set(d, receiver.z);
+    const auto px = hn::Set(d, receiver.x), py = hn::Set(d, receiver.y),
+               pz = hn::Set(d, receiver.z);
     const auto u0 = hn::Set(d, table.offsetMm2());
     const auto base = hn::Set(di, table.baseRow());
     const auto lastRow = hn::Set(di, static_cast<std::int32_t>(table.rowCount()) - 1);
@@ -52,9 +53,12 @@ HWY_ATTR void weigh(const KernelTable& table, const InteractionList::Block& bloc
             const auto exponent = hn::And(bits, hn::Set(di, 0x7f800000));
             const auto s = hn::Mul(hn::BitCast(d, hn::Sub(hn::Set(di, 254 << 23), exponent)),
                                    hn::Set(d, static_cast<float>(1 << KernelTable::kSegmentBits)));
-            const auto xx = hn::Load(d, block.moments[0] + i), yy = hn::Load(d, block.moments[1] + i),
-                       zz = hn::Load(d, block.moments[2] + i), xy = hn::Load(d, block.moments[3] + i),
-                       xz = hn::Load(d, block.moments[4] + i), yz = hn::Load(d, block.moments[5] + i);
+            const auto xx = hn::Load(d, block.moments[0] + i),
+                       yy = hn::Load(d, block.moments[1] + i),
+                       zz = hn::Load(d, block.moments[2] + i),
+                       xy = hn::Load(d, block.moments[3] + i),
+                       xz = hn::Load(d, block.moments[4] + i),
+                       yz = hn::Load(d, block.moments[5] + i);
             const auto two = hn::Set(d, 2.0f);
             // d^T Q d with Q d row by row, scaled by s on both sides to stay in range.
             const auto sx = hn::Mul(s, dx), sy = hn::Mul(s, dy), sz = hn::Mul(s, dz);
@@ -67,9 +71,9 @@ HWY_ATTR void weigh(const KernelTable& table, const InteractionList::Block& bloc
             const auto tt = hn::Mul(t, t), ta = hn::Mul(t, a);
             hn::Store(hn::Add(t, a), d, out.k1 + i);
             hn::Store(hn::MulAdd(two, hn::Add(ta, b), tt), d, out.k2 + i);
-            hn::Store(hn::Mul(t, hn::MulAdd(hn::Set(d, 3.0f), ta,
-                                            hn::MulAdd(hn::Set(d, 6.0f), b, tt))),
-                      d, out.k3 + i);
+            hn::Store(
+                hn::Mul(t, hn::MulAdd(hn::Set(d, 3.0f), ta, hn::MulAdd(hn::Set(d, 6.0f), b, tt))),
+                d, out.k3 + i);
         } else {
             const auto tt = hn::Mul(t, t);
             hn::Store(t, d, out.k1 + i);

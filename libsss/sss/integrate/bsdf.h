@@ -18,9 +18,9 @@ public:
     Bsdf(const World& world, const SurfaceHit& hit, const Vec3& wo, const BodyOptics* optics,
          BodyShading shading);
 
-    /// Makes a glossy lobe at least as wide as roughness 0.5, as seen by light that has already been
-    /// scattered widely: the few paths that would carry a sharp reflection of a lamp from there are
-    /// what white dots are made of. Costs sharpness of such caustics, not their energy.
+    /// Makes a glossy lobe at least as wide as roughness 0.5, as seen by light that has already
+    /// been scattered widely: the few paths that would carry a sharp reflection of a lamp from
+    /// there are what white dots are made of. Costs sharpness of such caustics, not their energy.
     void roughenForIndirect();
 
     struct Sample {

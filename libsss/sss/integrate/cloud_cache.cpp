@@ -71,11 +71,11 @@ void writeCloudCache(const std::filesystem::path& path, const World& world,
     JsonValue bodies = JsonValue::array();
     for (std::uint32_t b = 0; b < clouds.size(); ++b) {
         const int index = static_cast<int>(b);
-        const auto inputs = bodyInputs(
-            world, index, pointSpacingMm(world, world.bodies()[b], *optics[b]));
+        const auto inputs =
+            bodyInputs(world, index, pointSpacingMm(world, world.bodies()[b], *optics[b]));
         const Fingerprint points = combined(inputs, {"mesh", "sampling"});
-        const Fingerprint light =
-            combined(inputs, {"mesh", "sampling", "medium", "lights", "surroundings", "irradiance"});
+        const Fingerprint light = combined(
+            inputs, {"mesh", "sampling", "medium", "lights", "surroundings", "irradiance"});
         writer.add<SurfacePoint>(kPoints, b, points, clouds[b].points);
         writer.add<Rgb>(kIrradiance, b, light, clouds[b].irradiance);
         writer.add<OctreeNode>(kOctree, b, light, clouds[b].nodes);
@@ -100,8 +100,8 @@ CloudCache::CloudCache(const std::filesystem::path& path, const World& world,
     const JsonValue meta = parseJson(file_.text(kMeta, 0), where);
     const JsonValue::Array& bodies = bodiesOf(meta, where);
     if (bodies.size() != world.bodies().size())
-        refuse(where, fmt::format("it holds {} translucent objects, the scene has {}", bodies.size(),
-                                  world.bodies().size()));
+        refuse(where, fmt::format("it holds {} translucent objects, the scene has {}",
+                                  bodies.size(), world.bodies().size()));
     Hasher all;
     for (std::uint32_t b = 0; b < bodies.size(); ++b) {
         const Body& body = world.bodies()[b];
@@ -121,7 +121,8 @@ CloudCache::CloudCache(const std::filesystem::path& path, const World& world,
     fingerprint_ = all.finish().hex();
 }
 
-// The checksums hold; this keeps a file that some other program wrote from sending us out of bounds.
+// The checksums hold; this keeps a file that some other program wrote from sending us out of
+// bounds.
 void CloudCache::checkNodes(std::uint32_t body) const {
     const auto points = file_.section<SurfacePoint>(kPoints, body);
     const auto irradiance = file_.section<Rgb>(kIrradiance, body);
@@ -129,7 +130,8 @@ void CloudCache::checkNodes(std::uint32_t body) const {
     bool sound = irradiance.size() == points.size() && (points.empty() == nodes.empty());
     for (std::size_t n = 0; n < nodes.size() && sound; ++n) {
         const std::uint64_t end = std::uint64_t{nodes[n].first} + nodes[n].size();
-        sound = nodes[n].isLeaf() ? end <= points.size() : nodes[n].first > n && end <= nodes.size();
+        sound =
+            nodes[n].isLeaf() ? end <= points.size() : nodes[n].first > n && end <= nodes.size();
     }
     if (!sound)
         throw Error(ErrorKind::BadInput, file_.path().string(),

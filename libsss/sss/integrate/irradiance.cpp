@@ -66,8 +66,8 @@ private:
 
 int irradianceSamplesFor(const QualitySettings& quality) {
     if (quality.irradianceSamples > 0) return quality.irradianceSamples;
-    // A tenth of a point's noise is left after the sum over its neighbours; stratified, n samples of
-    // an even environment have a relative error of about 1 / n.
+    // A tenth of a point's noise is left after the sum over its neighbours; stratified, n samples
+    // of an even environment have a relative error of about 1 / n.
     return static_cast<int>(std::clamp(0.24 / quality.tolerance, 12.0, 1024.0));
 }
 
@@ -99,8 +99,8 @@ IrradianceResult computeIrradiance(const World& world, int body, const SurfaceSa
             double squares = 0;
             for (int k = 0; k < n; ++k) {
                 const std::uint32_t s = first + static_cast<std::uint32_t>(k % strata);
-                const SurfaceHit hit = world.surfaceOf(body, samples.strata.faces[s],
-                                                       samples.strata.barycentrics[s]);
+                const SurfaceHit hit =
+                    world.surfaceOf(body, samples.strata.faces[s], samples.strata.barycentrics[s]);
                 Sampler sampler(combineSeeds(seed, p), static_cast<std::uint32_t>(k));
                 const Rgb e = estimator.estimate(hit, sampler, counts);
                 if (!isFinite(e)) {
@@ -129,7 +129,8 @@ IrradianceResult computeIrradiance(const World& world, int body, const SurfaceSa
     const auto count = static_cast<double>(samples.size());
     if (mean > 0) result.pointNoise = std::sqrt(variance / count) / (mean / count);
     if (count > 0)
-        result.samplesPerPoint = static_cast<int>(std::lround(static_cast<double>(estimates) / count));
+        result.samplesPerPoint =
+            static_cast<int>(std::lround(static_cast<double>(estimates) / count));
     return result;
 }
 

@@ -17,13 +17,14 @@ struct IrradianceResult {
     PathCounts counts;
 };
 
-/// Transmitted irradiance E = integral of L_i F_t(w_i) cos over the outer hemisphere, of every point
-/// of a body: direct light of all kinds with shadows, the environment, and light by way of other
-/// surfaces, translucent ones in their diffuse limit, for `bounces` bounces.
+/// Transmitted irradiance E = integral of L_i F_t(w_i) cos over the outer hemisphere, of every
+/// point of a body: direct light of all kinds with shadows, the environment, and light by way of
+/// other surfaces, translucent ones in their diffuse limit, for `bounces` bounces.
 ///
-/// The samples of a point are spread over the strata of its cell, so that what is cached is the mean
-/// over the cell: light edges and facets inside a cell are integrated, not missed or hit. The sum over
-/// points averages over all points within reach of the profile, so few samples a point are enough.
+/// The samples of a point are spread over the strata of its cell, so that what is cached is the
+/// mean over the cell: light edges and facets inside a cell are integrated, not missed or hit. The
+/// sum over points averages over all points within reach of the profile, so few samples a point are
+/// enough.
 IrradianceResult computeIrradiance(const World& world, int body, const SurfaceSamples& samples,
                                    const PathTracer& tracer, Reporter& reporter);
 

@@ -26,11 +26,13 @@ bool isVisible(const World& world, const Vec3& from, const DirectSample& sample)
 /// How a ray's direction was chosen, for weighing the lights that it finds against light sampling.
 struct ScatterOrigin {
     Vec3 sampledFrom{};  ///< where light sampling would have started
-    float pdf = std::numeric_limits<float>::infinity();  ///< sr^-1; infinite for cameras and mirrors
+    float pdf =
+        std::numeric_limits<float>::infinity();  ///< sr^-1; infinite for cameras and mirrors
 };
 /// Radiance of the lights that a ray of length `distance` meets (infinite if it left the scene),
 /// each weighted against light sampling by the power heuristic.
-Rgb radianceOfLights(const World& world, const Ray& ray, float distance, const ScatterOrigin& origin);
+Rgb radianceOfLights(const World& world, const Ray& ray, float distance,
+                     const ScatterOrigin& origin);
 /// The same for the emitting surface that a ray hit.
 Rgb radianceOfEmitter(const World& world, const Ray& ray, const SurfaceHit& hit,
                       const ScatterOrigin& origin);

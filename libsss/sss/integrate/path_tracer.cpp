@@ -63,7 +63,8 @@ Rgb PathTracer::single(const SurfaceHit& hit, const Bsdf& bsdf, const Vec3& wo, 
                        Sampler& sampler, PathCounts& counts) const {
     SingleScatterCounts spent;
     const Rgb radiance = singleScattering(
-        world_, *optics_[static_cast<std::size_t>(hit.body)], hit, wo, bsdf.shadingNormal(), sampler,
+        world_, *optics_[static_cast<std::size_t>(hit.body)], hit, wo, bsdf.shadingNormal(),
+        sampler,
         [&](const Ray& ray, const Vec3& from, float pdf) {
             return incoming(ray, {from, pdf}, std::min(bounces, 1), sampler, counts);
         },
@@ -105,7 +106,8 @@ Rgb PathTracer::incoming(Ray ray, ScatterOrigin origin, int bounces, Sampler& sa
         if (isWide) bsdf.roughenForIndirect();
         // Seen at second hand, all that comes from within is taken from the diffusion, unscaled:
         // the profile's total has the light scattered once in it.
-        sum += throughput * (directLight(hit, bsdf, sampler, counts) + diffusion(hit, bsdf, counts));
+        sum +=
+            throughput * (directLight(hit, bsdf, sampler, counts) + diffusion(hit, bsdf, counts));
         if (!scatter(hit, bsdf, sampler, ray, origin, throughput)) return sum;
         const float uRoulette = sampler.next1D();
         if (depth + 1 >= kRouletteDepth) {

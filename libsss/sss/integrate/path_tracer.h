@@ -15,7 +15,7 @@ namespace sss {
 
 struct PathCounts {
     std::uint64_t cameraSamples = 0;
-    std::uint64_t rays = 0;         ///< of all kinds
+    std::uint64_t rays = 0;  ///< of all kinds
     std::uint64_t diffusionLookups = 0;
     std::uint64_t singleSamples = 0;
 

@@ -27,8 +27,8 @@ RenderResult render(const World& world, std::span<const std::unique_ptr<BodyOpti
     std::vector<Tile> tiles;
     for (int y = 0; y < settings.height; y += kTile)
         for (int x = 0; x < settings.width; x += kTile)
-            tiles.push_back({x, y, std::min(x + kTile, settings.width),
-                             std::min(y + kTile, settings.height)});
+            tiles.push_back(
+                {x, y, std::min(x + kTile, settings.width), std::min(y + kTile, settings.height)});
     Progress progress(reporter, "render", tiles.size());
     const std::uint64_t seed = combineSeeds(world.scene().quality.seed, 0xca3e7aull);
     std::mutex mutex;
@@ -42,7 +42,8 @@ RenderResult render(const World& world, std::span<const std::unique_ptr<BodyOpti
                         seed, static_cast<std::uint64_t>(y) << 32 | static_cast<std::uint64_t>(x));
                     for (int s = 0; s < settings.samples; ++s) {
                         Sampler sampler(pixelSeed, static_cast<std::uint32_t>(s));
-                        const Vec2 centre(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f);
+                        const Vec2 centre(static_cast<float>(x) + 0.5f,
+                                          static_cast<float>(y) + 0.5f);
                         const Vec2 pixel = centre + filter.sample(sampler.next2D());
                         const Ray ray = world.camera().ray(pixel, sampler.next2D());
                         film.add(x, y, tracer.trace(ray, sampler, counts));

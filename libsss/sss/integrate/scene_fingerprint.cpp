@@ -139,15 +139,15 @@ std::vector<InputFingerprint> bodyInputs(const World& world, int bodyIndex, doub
     MaterialHasher{medium}(world.materialOf(body));
     inputs.push_back({"medium", "the medium of its material is another", medium.finish()});
     sampling.add(kPassOneVersion).add(spacingMm).add(quality.seed);
-    inputs.push_back({"sampling", "spacing, tolerance or seed of the points differ",
-                      sampling.finish()});
+    inputs.push_back(
+        {"sampling", "spacing, tolerance or seed of the points differ", sampling.finish()});
     inputs.push_back({"lights", "the lights are others", lightsOf(world)});
     inputs.push_back({"surroundings", "it stands elsewhere, or other objects of the scene differ",
                       surroundingsOf(world, bodyIndex)});
     light.add(static_cast<std::uint64_t>(irradianceSamplesFor(quality)))
         .add(static_cast<std::uint64_t>(quality.bounces));
-    inputs.push_back({"irradiance", "irradiance samples or bounces of the light pass differ",
-                      light.finish()});
+    inputs.push_back(
+        {"irradiance", "irradiance samples or bounces of the light pass differ", light.finish()});
     return inputs;
 }
 

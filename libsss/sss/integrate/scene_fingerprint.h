@@ -8,7 +8,8 @@
 
 namespace sss {
 
-/// One thing that pass 1 of a body depends on, under a name for the user ("the mesh", "the lights").
+/// One thing that pass 1 of a body depends on, under a name for the user ("the mesh", "the
+/// lights").
 struct InputFingerprint {
     std::string key;       ///< in the cache's metadata
     std::string sentence;  ///< what to say when it differs

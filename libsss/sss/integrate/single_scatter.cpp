@@ -20,7 +20,8 @@ struct Coefficients {
 Rgb exponential(const Rgb& x) { return {std::exp(x.x), std::exp(x.y), std::exp(x.z)}; }
 
 // A propagation direction bent at a boundary: `along` arrives against `normal`.
-Vec3 refracted(const Vec3& along, const Vec3& normal, float cosOutside, float cosInside, float eta) {
+Vec3 refracted(const Vec3& along, const Vec3& normal, float cosOutside, float cosInside,
+               float eta) {
     return along / eta + normal * (cosOutside / eta - cosInside);
 }
 
@@ -126,9 +127,10 @@ private:
         rest.distance -= exit->distance;
         ++counts.rays;
         if (!isVisible(world_, exit->outside, rest)) return Rgb(0);
-        const float weight = direct.isDelta ? 1.0f
-                                            : powerHeuristic(share * direct.pdf,
-                                                             (1 - share) * phasePdf(direct.direction));
+        const float weight =
+            direct.isDelta
+                ? 1.0f
+                : powerHeuristic(share * direct.pdf, (1 - share) * phasePdf(direct.direction));
         return entering(medium_, optics_, *exit, out_) * direct.radianceOverPdf * (weight / share);
     }
 
@@ -179,7 +181,8 @@ Rgb singleScattering(const World& world, const BodyOptics& optics, const Surface
     // From the surface itself: the step off it would count as distance in the medium.
     const Vec3 place = hit.position + inward.direction * depth.distance;
     const InScattering inside(world, optics, medium, hit.body, place, -inward.direction);
-    const float leaving = (1.0f - fresnelReflectance(cosOut, optics.eta)) / (optics.eta * optics.eta);
+    const float leaving =
+        (1.0f - fresnelReflectance(cosOut, optics.eta)) / (optics.eta * optics.eta);
     return inside.estimate(sampler, incoming, counts) * depth.weight * leaving;
 }
 

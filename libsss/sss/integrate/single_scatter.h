@@ -24,7 +24,8 @@ struct SingleScatterCounts {
 /// light is found by light sampling or by sampling the phase function, weighted by the power
 /// heuristic. Light is taken to come in straight, and its path inside is corrected by Snell's law
 /// [JMLH01 Eq. 8], exact for a plane boundary:
-///   L_o = F_t(w_o)/eta^2  int sigma_s e^{-sigma_t s}  int p F_t(w_i) (mu_i / mu_i') e^{-sigma_t s_i'} L_i dw_i ds
+///   L_o = F_t(w_o)/eta^2  int sigma_s e^{-sigma_t s}  int p F_t(w_i) (mu_i / mu_i') e^{-sigma_t
+///   s_i'} L_i dw_i ds
 /// with dw_i in exterior solid angle. The factor (mu_i / mu_i') and 1/eta^2 are what [JMLH01 Eq. 7]
 /// leaves out. Needs a closed body: where a ray finds no way out nothing is added.
 Rgb singleScattering(const World& world, const BodyOptics& optics, const SurfaceHit& hit,

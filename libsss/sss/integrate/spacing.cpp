@@ -40,8 +40,8 @@ SpacingRule spacingFor(const BodyOptics& optics, double tolerance) {
         if (!(medium.sigmaSPrime() > 0)) continue;  // nothing leaves in this channel
         const double l = medium.meanFreePathMm();
         const double w = profileConcentration(*optics.profiles[static_cast<std::size_t>(c)], l);
-        const double perMfp = std::pow(rule.expectedRmsError / (kFactor * std::pow(w, kPowerOfW)),
-                                       1.0 / kPowerOfH);
+        const double perMfp =
+            std::pow(rule.expectedRmsError / (kFactor * std::pow(w, kPowerOfW)), 1.0 / kPowerOfH);
         const double spacing = l * std::min(perMfp, kCoarsest);
         if (spacing < rule.spacingMm) {
             rule.spacingMm = spacing;
@@ -58,8 +58,8 @@ double expectedQuadratureError(const BodyOptics& optics, double spacingMm) {
         if (!(medium.sigmaSPrime() > 0)) continue;
         const double l = medium.meanFreePathMm();
         const double w = profileConcentration(*optics.profiles[static_cast<std::size_t>(c)], l);
-        worst = std::max(worst,
-                         kFactor * std::pow(w, kPowerOfW) * std::pow(spacingMm / l, kPowerOfH));
+        worst =
+            std::max(worst, kFactor * std::pow(w, kPowerOfW) * std::pow(spacingMm / l, kPowerOfH));
     }
     return worst;
 }

@@ -10,9 +10,9 @@ namespace sss {
 /// centroids: relative RMS error = 0.125 w^1.5 (h / l)^3.2, with l the transport mean free path and
 /// w = l sqrt(integral R_d^2 dA) / R_tot, a profile's concentration (0.135 marble, 0.41 ketchup).
 struct SpacingRule {
-    double spacingMm = 0;        ///< smallest over the channels
-    double expectedRmsError = 0; ///< of the sum, in the channel that decides
-    int channel = 0;             ///< that decides
+    double spacingMm = 0;         ///< smallest over the channels
+    double expectedRmsError = 0;  ///< of the sum, in the channel that decides
+    int channel = 0;              ///< that decides
 };
 SpacingRule spacingFor(const BodyOptics& optics, double tolerance);
 

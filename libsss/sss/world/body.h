@@ -14,12 +14,12 @@ namespace sss {
 /// mesh lies in its own space, in mm, centred on its bounds, and moves rigidly with it, so that
 /// points placed on it stay what they are however the body moves.
 struct Body {
-    std::string name;             ///< of the group, or of the object
-    int material = 0;             ///< index into Scene::materials; a TranslucentMaterial
-    TriangleMesh mesh;            ///< body space, mm; normals for all vertices or for none
-    RigidTransform worldFromBody; ///< to the world's recentred space, mm
-    bool closed = false;          ///< all its objects are
-    std::vector<int> objects;     ///< indices into Scene::objects
+    std::string name;                  ///< of the group, or of the object
+    int material = 0;                  ///< index into Scene::materials; a TranslucentMaterial
+    TriangleMesh mesh;                 ///< body space, mm; normals for all vertices or for none
+    RigidTransform worldFromBody;      ///< to the world's recentred space, mm
+    bool closed = false;               ///< all its objects are
+    std::vector<int> objects;          ///< indices into Scene::objects
     std::vector<FaceIndex> firstFace;  ///< of each object, in `mesh`
 
     /// Shading normal (unit, body space) at a place: interpolated, or the face's own.

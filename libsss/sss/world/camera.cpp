@@ -59,7 +59,8 @@ Ray Camera::ray(const Vec2& pixel, const Vec2& lens) const {
 }
 
 std::array<double, 16> Camera::worldToCamera() const {
-    // Camera space looks along -z, y up, as RenderMan's and Nuke's readers of this attribute expect.
+    // Camera space looks along -z, y up, as RenderMan's and Nuke's readers of this attribute
+    // expect.
     const DVec3 axes[3] = {DVec3(right_), DVec3(up_), -DVec3(forward_)};
     std::array<double, 16> m{};
     for (std::size_t row = 0; row < 3; ++row)

@@ -60,8 +60,8 @@ DMat4 resolveTransform(const ObjectSettings& object, const TriangleMesh& mesh) {
         if (const auto* matrix = std::get_if<DMat4>(&step))
             worldFromObject = *matrix * worldFromObject;
         else
-            worldFromObject =
-                fitted(std::get<FitStep>(step), worldFromObject, mesh, object.name) * worldFromObject;
+            worldFromObject = fitted(std::get<FitStep>(step), worldFromObject, mesh, object.name) *
+                              worldFromObject;
     }
     return worldFromObject;
 }
@@ -103,9 +103,9 @@ LoadedObject loadObject(const ObjectSettings& object, const Scene& scene, Report
                     fmt::format("none of its {} faces has an area", facesRead),
                     "check the mesh and its scale");
     if (removed.degenerateFaces + removed.duplicateFaces > 0)
-        reporter.info("mesh", fmt::format("{}: removed {} faces without area and {} duplicates",
-                                          object.name, removed.degenerateFaces,
-                                          removed.duplicateFaces));
+        reporter.info(
+            "mesh", fmt::format("{}: removed {} faces without area and {} duplicates", object.name,
+                                removed.degenerateFaces, removed.duplicateFaces));
     repairWinding(loaded.mesh);
     chooseNormals(loaded.mesh, object.normals);
     const MeshReport after = inspectMesh(loaded.mesh);

@@ -7,8 +7,8 @@ namespace sss {
 
 /// An object's surface, cleaned, and where it stands.
 struct LoadedObject {
-    TriangleMesh mesh;             ///< object space, mm; faces wound outward; normals as asked for
-    DMat4 worldFromObject{1.0};    ///< mm, fits resolved
+    TriangleMesh mesh;           ///< object space, mm; faces wound outward; normals as asked for
+    DMat4 worldFromObject{1.0};  ///< mm, fits resolved
     bool closed = false;
 };
 

@@ -61,11 +61,13 @@ void World::makeBodies(const std::vector<LoadedObject>& loaded, Reporter& report
         for (const int k : group) {
             const ObjectSettings& object = scene_.objects[static_cast<std::size_t>(k)];
             if (object.material != first.material)
-                throw Error(ErrorKind::BadInput,
-                            fmt::format("{}:{}:{}", scene_.file.string(), object.line, object.column),
-                            fmt::format("object \"{}\" is in group \"{}\" with \"{}\" but has another "
-                                        "material", object.name, object.group, first.name),
-                            "a group is one body: give its objects one material, or split the group");
+                throw Error(
+                    ErrorKind::BadInput,
+                    fmt::format("{}:{}:{}", scene_.file.string(), object.line, object.column),
+                    fmt::format("object \"{}\" is in group \"{}\" with \"{}\" but has another "
+                                "material",
+                                object.name, object.group, first.name),
+                    "a group is one body: give its objects one material, or split the group");
         }
         bodies_.push_back(joinBody(first.group.empty() ? first.name : first.group, group, loaded,
                                    scene_, originMm_));
@@ -77,17 +79,19 @@ void World::describeBody(const Body& body, Reporter& reporter) const {
     const TranslucentMaterial& translucent = materialOf(body);
     const DVec3 size = body.mesh.bounds().size();
     const DRgb mfp = translucent.medium.meanFreePathMm();
-    reporter.info("scene",
-                  fmt::format("{}: {} triangles, {:.4g} x {:.4g} x {:.4g} mm, area {:.5g} mm2; mean "
-                              "free path {:.4g} {:.4g} {:.4g} mm",
-                              body.name, body.mesh.faceCount(), size.x, size.y, size.z,
-                              body.mesh.area(), mfp.x, mfp.y, mfp.z));
+    reporter.info(
+        "scene", fmt::format("{}: {} triangles, {:.4g} x {:.4g} x {:.4g} mm, area {:.5g} mm2; mean "
+                             "free path {:.4g} {:.4g} {:.4g} mm",
+                             body.name, body.mesh.faceCount(), size.x, size.y, size.z,
+                             body.mesh.area(), mfp.x, mfp.y, mfp.z));
     for (const std::string& sentence : diffusionWarnings(translucent.medium, minComponent(size)))
         reporter.warn("medium", body.name + ": " + sentence);
     if (!body.closed)
-        reporter.warn("mesh", fmt::format("{}: the surface is not closed: diffusion holds, but single "
-                                          "scattering has no inside there; close it, or set "
-                                          "\"singleScattering\": false", body.name));
+        reporter.warn("mesh",
+                      fmt::format("{}: the surface is not closed: diffusion holds, but single "
+                                  "scattering has no inside there; close it, or set "
+                                  "\"singleScattering\": false",
+                                  body.name));
 }
 
 void World::makeParts(const std::vector<LoadedObject>& loaded) {
@@ -95,8 +99,7 @@ void World::makeParts(const std::vector<LoadedObject>& loaded) {
     std::vector<RayScene::Geometry> geometries(loaded.size());
     for (std::size_t k = 0; k < loaded.size(); ++k) {
         const DMat4& m = loaded[k].worldFromObject;
-        TriangleMesh mesh =
-            transformedMesh(loaded[k].mesh, DMat3(m), DVec3(m[3]) - originMm_);
+        TriangleMesh mesh = transformedMesh(loaded[k].mesh, DMat3(m), DVec3(m[3]) - originMm_);
         Part& part = parts_[k];
         for (const DVec3& p : mesh.positions) {
             part.positions.push_back(Vec3(p));
@@ -129,8 +132,8 @@ void World::makeLights() {
         if (!emitter) continue;
         std::vector<MeshLight::Triangle> triangles;
         for (const UVec3& f : parts_[k].faces)
-            triangles.push_back({parts_[k].positions[f.x], parts_[k].positions[f.y],
-                                 parts_[k].positions[f.z]});
+            triangles.push_back(
+                {parts_[k].positions[f.x], parts_[k].positions[f.y], parts_[k].positions[f.z]});
         auto light = std::make_unique<MeshLight>(
             std::move(triangles), MeshLight::Emission{emitter->radiance, emitter->twoSided});
         emitters_[k] = light.get();
@@ -186,8 +189,8 @@ SurfaceHit World::surfaceOf(int bodyIndex, FaceIndex bodyFace, const Vec2& baryc
     hit.u = barycentrics.x;
     hit.v = barycentrics.y;
     // In double: a sliver may have no area left in float.
-    hit.normal = Vec3(body.worldFromBody.transformDirection(
-        glm::normalize(body.mesh.faceCross(bodyFace))));
+    hit.normal =
+        Vec3(body.worldFromBody.transformDirection(glm::normalize(body.mesh.faceCross(bodyFace))));
     return surfaceAt(hit);
 }
 

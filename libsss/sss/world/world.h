@@ -53,7 +53,9 @@ public:
     const std::vector<std::unique_ptr<Light>>& lights() const { return lights_; }
     const LightPicker& picker() const { return *picker_; }
     /// The light that an object's faces are, if they are an emitter.
-    const MeshLight* emitter(int object) const { return emitters_[static_cast<std::size_t>(object)]; }
+    const MeshLight* emitter(int object) const {
+        return emitters_[static_cast<std::size_t>(object)];
+    }
     /// Its index among lights().
     std::size_t emitterIndex(int object) const {
         return emitterIndices_[static_cast<std::size_t>(object)];

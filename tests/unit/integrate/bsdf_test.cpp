@@ -1,8 +1,7 @@
 #include "sss/integrate/bsdf.h"
 
-#include "unit/integrate/scene_maker.h"
-
 #include "sss/integrate/preprocess.h"
+#include "unit/integrate/scene_maker.h"
 
 #include <gtest/gtest.h>
 
@@ -136,10 +135,10 @@ TEST(Bsdf, WhatLeavesABodyIsAllThatIsLeft) {
     const auto optics = makeBodyOptics(world);
     EXPECT_NEAR(optics[0]->diffuseAlbedo.x, 1, 1e-5);
     // Radiance per exitance integrates to the exitance.
-    const double flux = 2 * kPi * integrate01(20000, [&](double mu) {
-                            return mu * static_cast<double>(
-                                            optics[0]->radiancePerExitance(static_cast<float>(mu)));
-                        });
+    const double flux =
+        2 * kPi * integrate01(20000, [&](double mu) {
+            return mu * static_cast<double>(optics[0]->radiancePerExitance(static_cast<float>(mu)));
+        });
     EXPECT_NEAR(flux, 1, 1e-5);
 }
 

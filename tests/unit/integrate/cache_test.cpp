@@ -1,10 +1,8 @@
-#include "sss/integrate/cloud_cache.h"
-
-#include "unit/integrate/pass_maker.h"
-
 #include "sss/base/error.h"
+#include "sss/integrate/cloud_cache.h"
 #include "sss/integrate/scene_fingerprint.h"
 #include "support/temporary_folder.h"
+#include "unit/integrate/pass_maker.h"
 
 #include <gtest/gtest.h>
 
@@ -46,31 +44,42 @@ TEST(SceneFingerprint, NamesExactlyWhatChanged) {
     };
     const Change changes[] = {
         {"nothing", [](Scene&) {}, {}},
-        {"camera", [](Scene& s) { s.camera.position = {1, 2, 30}; }, {}},
+        {"camera",
+         [](Scene& s) {
+             s.camera.position = {1, 2, 30};
+         },
+         {}},
         {"film", [](Scene& s) { s.film.samples = 7, s.film.width = 99; }, {}},
         {"roughness of the boundary",
          [](Scene& s) { std::get<TranslucentMaterial>(s.materials[0].material).roughness = 0.4; },
          {}},
         {"names", [](Scene& s) { s.objects[0].name = "ball", s.materials[0].name = "stone"; }, {}},
-        {"light", [](Scene& s) { std::get<DirectionalLight>(s.lights[0]).irradiance.y = 3; },
+        {"light",
+         [](Scene& s) { std::get<DirectionalLight>(s.lights[0]).irradiance.y = 3; },
          {"lights"}},
         {"another light", [](Scene& s) { s.lights.emplace_back(PointLight{}); }, {"lights"}},
         {"mesh", [](Scene& s) { s.objects[0].shape = SphereShape{3.01}; }, {"mesh"}},
         {"medium",
-         [](Scene& s) { std::get<TranslucentMaterial>(s.materials[0].material).medium.sigmaA.z = 1; },
+         [](Scene& s) {
+             std::get<TranslucentMaterial>(s.materials[0].material).medium.sigmaA.z = 1;
+         },
          {"medium"}},
         {"spacing", [](Scene& s) { s.quality.spacingMm = 0.8; }, {"sampling"}},
         {"seed", [](Scene& s) { s.quality.seed = 5; }, {"sampling"}},
         {"light samples", [](Scene& s) { s.quality.irradianceSamples = 24; }, {"irradiance"}},
         {"bounces", [](Scene& s) { s.quality.bounces = 2; }, {"irradiance"}},
         {"neighbour's place",
-         [](Scene& s) { s.objects[1].transform = {testing::moved({0, 0, -7})}; },
+         [](Scene& s) {
+             s.objects[1].transform = {testing::moved({0, 0, -7})};
+         },
          {"surroundings"}},
         {"neighbour's colour",
          [](Scene& s) { s.materials[1].material = LambertianMaterial{Rgb(0.1f)}; },
          {"surroundings"}},
         {"its own place",
-         [](Scene& s) { s.objects[0].transform = {testing::turned(5, {0, 1, 0})}; },
+         [](Scene& s) {
+             s.objects[0].transform = {testing::turned(5, {0, 1, 0})};
+         },
          {"surroundings"}},
         {"a new neighbour",
          [](Scene& s) {
@@ -102,7 +111,10 @@ struct Written {
     MadeClouds made;
 
     explicit Written(const std::filesystem::path& path)
-        : maker(smallScene()), world(maker.world()), optics(makeBodyOptics(world)), made(world, optics) {
+        : maker(smallScene()),
+          world(maker.world()),
+          optics(makeBodyOptics(world)),
+          made(world, optics) {
         writeCloudCache(path, world, made.clouds, made.reports, optics);
     }
 };
@@ -126,9 +138,9 @@ TEST(CloudCache, GivesThePictureOfTheCloudsInMemory) {
     const CloudCache cache(folder / "a.ssc", written.world, written.optics);
     const LayeredImage file = testing::renderFrom(written.world, written.optics,
                                                   [&](std::size_t b) { return cache.view(b); });
-    const LayeredImage memory = testing::renderFrom(
-        written.world, written.optics,
-        [&](std::size_t b) { return written.made.clouds[b].view(); });
+    const LayeredImage memory =
+        testing::renderFrom(written.world, written.optics,
+                            [&](std::size_t b) { return written.made.clouds[b].view(); });
     for (const ImageLayer& layer : memory.layers)
         EXPECT_EQ(file.find(layer.name)->values, layer.values) << layer.name;
 }

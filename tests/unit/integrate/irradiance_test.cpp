@@ -1,10 +1,9 @@
 #include "sss/integrate/irradiance.h"
 
-#include "unit/integrate/scene_maker.h"
-
 #include "sss/integrate/preprocess.h"
 #include "sss/optics/fresnel.h"
 #include "sss/optics/fresnel_moments.h"
+#include "unit/integrate/scene_maker.h"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,7 @@
 #pragma once
-#include "unit/integrate/scene_maker.h"
-
 #include "sss/integrate/preprocess.h"
 #include "sss/integrate/renderer.h"
+#include "unit/integrate/scene_maker.h"
 
 #include <gtest/gtest.h>
 
@@ -17,8 +16,8 @@ struct MadeClouds {
         SilentReporter silent;
         for (int b = 0; b < static_cast<int>(world.bodies().size()); ++b) {
             BodyReport& report = reports.emplace_back();
-            SurfaceSamples samples = placePoints(world, b, *optics[static_cast<std::size_t>(b)], {},
-                                                 silent, report);
+            SurfaceSamples samples =
+                placePoints(world, b, *optics[static_cast<std::size_t>(b)], {}, silent, report);
             std::vector<Rgb> irradiance = lightPoints(world, b, samples, optics, silent, report);
             clouds.push_back(buildCloud(std::move(samples), std::move(irradiance), report));
         }

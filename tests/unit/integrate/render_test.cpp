@@ -1,12 +1,10 @@
-#include "sss/integrate/renderer.h"
-
-#include "unit/integrate/pass_maker.h"
-
 #include "sss/base/parallel.h"
 #include "sss/integrate/irradiance.h"
+#include "sss/integrate/renderer.h"
 #include "sss/optics/fresnel.h"
 #include "sss/optics/fresnel_moments.h"
 #include "sss/scene/scene_reader.h"
+#include "unit/integrate/pass_maker.h"
 
 #include <gtest/gtest.h>
 
@@ -30,18 +28,19 @@ TEST(Render, WhiteFurnace) {
     maker.light(EnvironmentLight{Rgb(1.5f), {}, 0});
     maker.scene.camera.position = {0, 0, 40};
     maker.scene.camera.fovDegrees = 2 * 180 / kPi * std::asin(2 / 40.0);  // the ball fills it
-    maker.scene.film.samples = 64;
+    maker.scene.film.width = maker.scene.film.height = 8;
+    maker.scene.film.samples = 256;
     maker.scene.quality.bounces = 0;
     maker.scene.quality.tolerance = 0.02;
     const LayeredImage image = picture(maker.scene);
     const BodyOptics optics(white);
     DRgb mean(0);
     int n = 0;
-    for (int y = 0; y < 16; ++y)
-        for (int x = 0; x < 16; ++x) {
-            if (std::hypot(x - 7.5, y - 7.5) > 7.2) continue;
+    for (int y = 0; y < 8; ++y)
+        for (int x = 0; x < 8; ++x) {
+            if (std::hypot(x - 3.5, y - 3.5) > 3.3) continue;
             ++n;
-            const double offset = std::hypot(x - 7.5, y - 7.5) / 8;
+            const double offset = std::hypot(x - 3.5, y - 3.5) / 4;
             const double leaving = 1 - fresnelReflectance(std::sqrt(1 - offset * offset), 1.3);
             for (int c = 0; c < 3; ++c) {
                 const double lost = static_cast<double>(optics.multipleScale[c]) *

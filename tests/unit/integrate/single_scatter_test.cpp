@@ -1,11 +1,10 @@
 #include "sss/integrate/single_scatter.h"
 
-#include "unit/integrate/scene_maker.h"
-
 #include "sss/integrate/path_tracer.h"
 #include "sss/integrate/preprocess.h"
 #include "sss/optics/fresnel.h"
 #include "sss/optics/phase.h"
+#include "unit/integrate/scene_maker.h"
 
 #include <gtest/gtest.h>
 
@@ -104,9 +103,9 @@ struct Angles {
     double in, out, azimuths;  // degrees
     double marbleGreen;        // the closed form, computed elsewhere
 };
-constexpr Angles kRows[] = {{0, 0, 0, 0.016272002352135},      {0, 45, 0, 0.017108549365792},
-                            {30, 60, 0, 0.015175013702397},    {45, 45, 180, 0.012769785444571},
-                            {60, 30, 90, 0.0087612982460352},  {75, 15, 135, 0.0037444650103068}};
+constexpr Angles kRows[] = {{0, 0, 0, 0.016272002352135},     {0, 45, 0, 0.017108549365792},
+                            {30, 60, 0, 0.015175013702397},   {45, 45, 180, 0.012769785444571},
+                            {60, 30, 90, 0.0087612982460352}, {75, 15, 135, 0.0037444650103068}};
 
 SceneMaker sunlit(const char* medium, const Angles& row) {
     SceneMaker maker = halfSpace(measured(medium));
@@ -117,8 +116,9 @@ SceneMaker sunlit(const char* medium, const Angles& row) {
 DRgb rigorousRow(const Medium& medium, const Angles& row) {
     DRgb expected;
     for (int c = 0; c < 3; ++c)
-        expected[c] = rigorous(medium.channel(c), std::cos(glm::radians(row.in)),
-                               std::cos(glm::radians(row.out)), std::cos(glm::radians(row.azimuths)));
+        expected[c] =
+            rigorous(medium.channel(c), std::cos(glm::radians(row.in)),
+                     std::cos(glm::radians(row.out)), std::cos(glm::radians(row.azimuths)));
     return expected;
 }
 
@@ -159,12 +159,13 @@ TEST(SingleScattering, UnderAConstantSky) {
         const double muO = std::cos(glm::radians(40.0));
         DRgb expected(0);
         for (int c = 0; c < 3; ++c) {
-            const ChannelMedium medium = maker.world().materialOf(maker.world().bodies()[0]).medium.channel(c);
+            const ChannelMedium medium =
+                maker.world().materialOf(maker.world().bodies()[0]).medium.channel(c);
             expected[c] = 2 * 2 * kPi * testing::integrate01(200, [&](double mu) {
-                return testing::integrate01(100, [&](double phi) {
-                    return rigorous(medium, mu, muO, std::cos(2 * kPi * phi));
-                });
-            });
+                              return testing::integrate01(100, [&](double phi) {
+                                  return rigorous(medium, mu, muO, std::cos(2 * kPi * phi));
+                              });
+                          });
         }
         expectWithin(Experiment(maker).run(direction(40, 10), 8192), expected, 0.01);
     }
@@ -213,7 +214,8 @@ TEST(SingleScattering, ShadowsAndThinSlabs) {
     // Lit from below, a slab of thickness d: L = alpha sigma_s p ... with both paths in the slab.
     SceneMaker slab;
     const TranslucentMaterial material = testing::grey(0.1, 2, 1.3);
-    slab.object(BoxShape{{60, 1, 60}}, slab.material(material), testing::moved({0, kHalfSize - 0.5, 0}));
+    slab.object(BoxShape{{60, 1, 60}}, slab.material(material),
+                testing::moved({0, kHalfSize - 0.5, 0}));
     slab.light(DirectionalLight{{0, 1, 0}, Rgb(1)});
     const double t = 1 - fresnelReflectance(1.0, 1.3);
     const double expected = t * t / (1.3 * 1.3) * 2.0 * std::exp(-2.1) / (4 * kPi);

@@ -1,9 +1,8 @@
 #include "sss/world/world.h"
 
-#include "unit/integrate/scene_maker.h"
-
 #include "sss/base/error.h"
 #include "support/temporary_folder.h"
+#include "unit/integrate/scene_maker.h"
 
 #include <gtest/gtest.h>
 
@@ -58,7 +57,8 @@ TEST(Bodies, ObjectsOfAGroupAreOneBody) {
 
 TEST(Bodies, MaterialsOfAGroupMustAgree) {
     SceneMaker maker;
-    const int stone = maker.material(measured("Marble")), milk = maker.material(measured("Skimmilk"));
+    const int stone = maker.material(measured("Marble")),
+              milk = maker.material(measured("Skimmilk"));
     maker.object(BoxShape{DVec3(2)}, stone).group = "pair";
     maker.object(BoxShape{DVec3(2)}, milk, moved({9, 0, 0})).group = "pair";
     try {
@@ -113,10 +113,11 @@ TEST(Bodies, AreWhereTheirObjectsAre) {
         const UVec3 v = body.mesh.faces[f];
         const DVec3 inBody = body.mesh.positions[v.x] * 0.5 + body.mesh.positions[v.y] * 0.2 +
                              body.mesh.positions[v.z] * 0.3;
-        EXPECT_LT(glm::length(body.worldFromBody.transformPoint(inBody) - DVec3(hit.position)), 1e-5);
+        EXPECT_LT(glm::length(body.worldFromBody.transformPoint(inBody) - DVec3(hit.position)),
+                  1e-5);
         // Back in the object's own space it lies on the box.
-        const DVec3 own = DVec3(glm::inverse(place) *
-                                glm::dvec4(DVec3(hit.position) + world.originMm(), 1.0));
+        const DVec3 own =
+            DVec3(glm::inverse(place) * glm::dvec4(DVec3(hit.position) + world.originMm(), 1.0));
         const DVec3 share = glm::abs(own) / DVec3(1, 2, 3);
         EXPECT_NEAR(maxComponent(share), 1, 1e-5);
         // ... and the normal points away from its middle.
@@ -150,16 +151,16 @@ TEST(Objects, FitSetsHeightAndCentre) {
 
 TEST(Objects, FlatOnesCannotBeFitted) {
     SceneMaker maker;
-    ObjectSettings& object =
-        maker.object(RectangleShape{4, 2}, maker.material(measured("Marble")));
+    ObjectSettings& object = maker.object(RectangleShape{4, 2}, maker.material(measured("Marble")));
     object.transform = {turned(90, {1, 0, 0}), FitStep{50, DVec3(0)}};
     EXPECT_THROW(maker.world(), Error);
 }
 
 TEST(Objects, MeshFilesAreInSceneUnits) {
     const testing::TemporaryFolder folder;
-    testing::writeFile(folder / "t.obj",
-                       "v 0 0 0\nv 10 0 0\nv 0 10 0\nv 0 0 10\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n");
+    testing::writeFile(
+        folder / "t.obj",
+        "v 0 0 0\nv 10 0 0\nv 0 10 0\nv 0 0 10\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n");
     SceneMaker maker;
     maker.scene.metersPerUnit = 0.01;
     maker.object(MeshFileShape{folder / "t.obj"}, maker.material(measured("Marble")));
