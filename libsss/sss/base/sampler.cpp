@@ -1,5 +1,7 @@
 #include "sss/base/sampler.h"
 
+#include <array>
+
 namespace sss {
 namespace {
 
@@ -27,12 +29,26 @@ constexpr std::uint32_t shuffledIndexReversed(std::uint32_t index, std::uint32_t
     return laineKarras(reverseBits(index), seed);
 }
 
-// Second Sobol dimension (van der Corput in the Pascal matrix), bits reversed on output.
-constexpr std::uint32_t sobolSecond(std::uint32_t index) {
+// Second Sobol dimension (van der Corput in the Pascal matrix), bits reversed on output. Indices
+// are shuffled over all 32 bits, so they are taken byte by byte: the matrix is linear.
+constexpr std::uint32_t sobolSecondByBits(std::uint32_t index) {
     std::uint32_t result = 0;
     for (std::uint32_t v = 1u << 31; index; index >>= 1, v ^= v >> 1)
         if (index & 1u) result ^= v;
     return result;
+}
+
+constexpr auto kSobolBytes = [] {
+    std::array<std::array<std::uint32_t, 256>, 4> table{};
+    for (std::uint32_t byte = 0; byte < 4; ++byte)
+        for (std::uint32_t value = 0; value < 256; ++value)
+            table[byte][value] = sobolSecondByBits(value << (8 * byte));
+    return table;
+}();
+
+constexpr std::uint32_t sobolSecond(std::uint32_t index) {
+    return kSobolBytes[0][index & 255u] ^ kSobolBytes[1][index >> 8 & 255u] ^
+           kSobolBytes[2][index >> 16 & 255u] ^ kSobolBytes[3][index >> 24];
 }
 
 }  // namespace

@@ -1,7 +1,6 @@
 #include "sss/cloud/kernel_table.h"
 
 #include "sss/base/parallel.h"
-#include "sss/optics/gauss_legendre.h"
 
 #include <algorithm>
 #include <bit>
@@ -13,100 +12,20 @@ namespace {
 constexpr double kNegligible = 1e-30;  // of the peak
 constexpr int kMostRows = 16 * 60;
 
-// Smooth cutoff: 1 at 0, 0 from x = 1 on, two continuous derivatives.
-double fade(double x) {
-    if (x >= 1.0) return 0.0;
-    return 1.0 - x * x * x * (10.0 + x * (-15.0 + 6.0 * x));
-}
-
-// Angle of the circle of radius s around a point that lies inside a disk of radius a at distance r.
-double arcInsideDisk(double s, double r, double a) {
-    if (s <= a - r) return 2.0 * kPi;
-    if (s >= a + r || s <= r - a) return 0.0;
-    return 2.0 * std::acos(std::clamp((r * r + s * s - a * a) / (2.0 * r * s), -1.0, 1.0));
-}
-
-// How a profile grows at r = 0: inverse / r + logarithm log(reach / r). Beam diffusion has only the
-// logarithm, the other singular profiles both or only the first.
-struct Singularity {
-    double inverse = 0, logarithm = 0;
-    double cellRadius = 1;
-    double reach = 4;
-    // Windowed, times s: without the infinity at 0.
-    double timesRadius(double s) const {
-        const double x = s / reach;
-        return x > 0.0 ? (inverse - logarithm * s * std::log(x)) * fade(x) : inverse;
-    }
-};
-
-// Where the profile is so near r = 0 that only its singularity varies.
-double innermost(const Profile& profile, double cellRadius) {
-    return 1e-4 * std::min(cellRadius, profile.scaleMm());
-}
-
-// From three radii near 0, a constant besides eliminated.
-Singularity singularityOf(const Profile& profile, double a) {
-    const double r1 = innermost(profile, a), r2 = 10.0 * r1, r3 = 100.0 * r1;
-    const double last = profile.reflectance(r3);
-    const double d1 = profile.reflectance(r1) - last, d2 = profile.reflectance(r2) - last;
-    const double i1 = 1.0 / r1 - 1.0 / r3, i2 = 1.0 / r2 - 1.0 / r3;
-    const double l1 = std::log(r3 / r1), l2 = std::log(r3 / r2);
-    const double determinant = i1 * l2 - i2 * l1;
-    Singularity out{(d1 * l2 - d2 * l1) / determinant, (i1 * d2 - i2 * d1) / determinant, a,
-                    4.0 * a};
-    if (out.logarithm >= 0.0) return out;
-    // A negative logarithm must not make the whole negative.
-    out.reach = std::min(out.reach, -out.inverse / out.logarithm);
-    return out.reach > 0.0 ? out : Singularity{0.0, 0.0, a, 4.0 * a};
-}
-
-// Mean of the windowed singularity over a disk of radius a at distance r from its point:
-// (1 / (pi a^2)) integral of S(s) s arc(s) ds.
-double averaged(const Singularity& singularity, double r) {
-    const double a = singularity.cellRadius;
-    const double inner = std::abs(a - r), outer = a + r;
-    double sum = 0;
-    if (r < a) {
-        // Whole circles; s = end t^2 tames s log s, and the window may end before the circles do.
-        const double end = std::min(inner, singularity.reach);
-        sum += gauss16(0.0, 1.0, [&](double t) {
-            return singularity.timesRadius(end * t * t) * 4.0 * kPi * end * t;
-        });
-    }
-    // The arc has square-root ends: s = mid - half cos(phi) makes the integrand smooth.
-    constexpr int kSteps = 48;
-    const double mid = 0.5 * (inner + outer), half = 0.5 * (outer - inner);
-    for (int i = 0; i < kSteps; ++i) {
-        const double phi = (i + 0.5) / kSteps * kPi;
-        const double s = mid - half * std::cos(phi);
-        sum += singularity.timesRadius(s) * arcInsideDisk(s, r, a) * half * std::sin(phi) * kPi /
-               kSteps;
-    }
-    return sum / (kPi * a * a);
-}
-
 }  // namespace
-
-double regularisedReflectance(const Profile& profile, double rMm, double cellRadiusMm) {
-    if (!profile.singularAtZero()) return profile.reflectance(rMm);
-    const double a = cellRadiusMm;
-    if (rMm >= 5.0 * a) return profile.reflectance(rMm);
-    const Singularity singularity = singularityOf(profile, a);
-    const double r = std::max(rMm, innermost(profile, a));
-    const double smooth = profile.reflectance(r) - singularity.timesRadius(r) / r;
-    return std::max(0.0, smooth + averaged(singularity, rMm));
-}
 
 KernelTable::KernelTable(const std::array<const Profile*, 3>& profiles, double reachMm,
                          double cellRadiusMm) {
+    const Regularised regularised{RegularisedProfile(*profiles[0], cellRadiusMm),
+                                  RegularisedProfile(*profiles[1], cellRadiusMm),
+                                  RegularisedProfile(*profiles[2], cellRadiusMm)};
     // The scale below which the profiles are flat: where they have fallen to half their peak.
     double scale = reachMm;
-    for (const Profile* p : profiles) {
-        const double peak = regularisedReflectance(*p, 0.0, cellRadiusMm);
+    for (const RegularisedProfile& f : regularised) {
+        const double peak = f(0.0);
         if (!(peak > 0.0)) continue;
         double r = reachMm;
-        while (r > reachMm * 1e-12 && regularisedReflectance(*p, r, cellRadiusMm) < 0.5 * peak)
-            r *= 0.8;
+        while (r > reachMm * 1e-12 && f(r) < 0.5 * peak) r *= 0.8;
         scale = std::min(scale, r);
     }
     scale = std::max(scale, 1e-15 * reachMm);
@@ -114,12 +33,12 @@ KernelTable::KernelTable(const std::array<const Profile*, 3>& profiles, double r
     // A power of two, so that rows start at round places.
     u0_ = std::exp2(static_cast<float>(std::clamp(std::floor(std::log2(wanted)), -120.0, 120.0)));
     base_ = static_cast<std::int32_t>(std::bit_cast<std::uint32_t>(u0_) >> kShift);
-    fitRows(profiles, cellRadiusMm);
+    fitRows(regularised);
     const double reachSquared = reachMm * reachMm;
     const std::size_t needed = rowOf(static_cast<float>(std::min(reachSquared, 1e37))) + 2;
     if (needed < rows_.size()) rows_.resize(needed);
     if (!isZero(evaluate(static_cast<float>(std::min(reachSquared, 1e37))))) rows_.push_back(Row{});
-    boundDerivatives(profiles, cellRadiusMm);
+    boundDerivatives(regularised);
 }
 
 std::size_t KernelTable::rowOf(float distanceSquaredMm2) const {
@@ -156,13 +75,12 @@ std::array<double, 4> fitCubic(const std::array<double, 4>& x, const std::array<
 
 }  // namespace
 
-void KernelTable::fitRows(const std::array<const Profile*, 3>& profiles, double cellRadiusMm) {
+void KernelTable::fitRows(const Regularised& profiles) {
     std::array<double, 4> nodes;
     for (std::size_t k = 0; k < 4; ++k)
         nodes[k] = 0.5 - 0.5 * std::cos((2.0 * static_cast<double>(k) + 1.0) / 8.0 * kPi);
     std::array<double, 3> peak;
-    for (std::size_t c = 0; c < 3; ++c)
-        peak[c] = regularisedReflectance(*profiles[c], 0.0, cellRadiusMm);
+    for (std::size_t c = 0; c < 3; ++c) peak[c] = profiles[c](0.0);
     constexpr std::size_t kBatch = 64;
     while (rows_.size() < static_cast<std::size_t>(kMostRows)) {
         const std::size_t begin = rows_.size();
@@ -174,8 +92,7 @@ void KernelTable::fitRows(const std::array<const Profile*, 3>& profiles, double 
                     for (std::size_t k = 0; k < 4; ++k) {
                         const double u =
                             edgeOf(base_ + static_cast<std::int32_t>(i), nodes[k]) - u0_;
-                        const double f = regularisedReflectance(
-                            *profiles[c], std::sqrt(std::max(u, 0.0)), cellRadiusMm);
+                        const double f = profiles[c](std::sqrt(std::max(u, 0.0)));
                         values[k] = f > kNegligible * peak[c] ? f : 0.0;
                     }
                     const std::array<double, 4> cubic = fitCubic(nodes, values);
@@ -190,8 +107,7 @@ void KernelTable::fitRows(const std::array<const Profile*, 3>& profiles, double 
     }
 }
 
-void KernelTable::boundDerivatives(const std::array<const Profile*, 3>& profiles,
-                                   double cellRadiusMm) {
+void KernelTable::boundDerivatives(const Regularised& profiles) {
     bounds_.assign(rows_.size(), {});
     constexpr int kSamples = 3;
     constexpr double kSafety = 1.05;  // between the samples of a row, 2 % apart in r
@@ -207,8 +123,7 @@ void KernelTable::boundDerivatives(const std::array<const Profile*, 3>& profiles
                     std::array<double, 5> f;
                     for (int k = -2; k <= 2; ++k)
                         f[static_cast<std::size_t>(k + 2)] =
-                            regularisedReflectance(*profiles[static_cast<std::size_t>(c)],
-                                                   std::abs(r + k * h), cellRadiusMm);
+                            profiles[static_cast<std::size_t>(c)](std::abs(r + k * h));
                     const double d1 = (f[0] - 8 * f[1] + 8 * f[3] - f[4]) / (12 * h);
                     const double d2 =
                         (-f[0] + 16 * f[1] - 30 * f[2] + 16 * f[3] - f[4]) / (12 * h * h);

@@ -1,5 +1,6 @@
 #pragma once
 #include "sss/base/vec.h"
+#include "sss/cloud/regularised_profile.h"
 #include "sss/medium/profile.h"
 
 #include <array>
@@ -19,7 +20,7 @@ namespace sss {
 /// [0, 1) within the segment; derivatives by u follow from the same row.
 ///
 /// A profile that is singular at r = 0 is averaged over the disk of a sample there (its total stays
-/// the same): see regularise().
+/// the same): see RegularisedProfile.
 class KernelTable {
 public:
     static constexpr int kSegmentBits = 4;  ///< 2^4 segments an octave
@@ -49,18 +50,14 @@ public:
 
 private:
     std::size_t rowOf(float distanceSquaredMm2) const;
-    void fitRows(const std::array<const Profile*, 3>& profiles, double cellRadiusMm);
-    void boundDerivatives(const std::array<const Profile*, 3>& profiles, double cellRadiusMm);
+    using Regularised = std::array<RegularisedProfile, 3>;
+    void fitRows(const Regularised& profiles);
+    void boundDerivatives(const Regularised& profiles);
 
     float u0_ = 0;           // mm^2
     std::int32_t base_ = 0;  // bits(u0) >> kShift
     std::vector<Row> rows_;  // the last row is all zero
     std::vector<BoundsRow> bounds_;
 };
-
-/// R_d(r) with its singularity (1/r, log r or both) averaged over a disk of radius `cellRadiusMm`:
-/// finite at 0, the same beyond 5 cell radii, the same total. The profile itself where it is not
-/// singular.
-double regularisedReflectance(const Profile& profile, double rMm, double cellRadiusMm);
 
 }  // namespace sss

@@ -16,7 +16,7 @@ public:
     NearestPoints(const NearestPoints&) = delete;
     NearestPoints& operator=(const NearestPoints&) = delete;
 
-    static constexpr int kMost = 4;
+    static constexpr int kMost = 3;
     struct Neighbours {
         int count = 0;  ///< min(kMost, number of points)
         std::uint32_t index[kMost];

@@ -4,7 +4,15 @@
 #include "sss/optics/fresnel.h"
 #include "sss/optics/fresnel_moments.h"
 
+#include <algorithm>
+
 namespace sss {
+namespace {
+
+// Above this reduced albedo single scattering is less than a sixth of what leaves a half-space.
+constexpr double kHighAlbedo = 0.9;
+
+}  // namespace
 
 BodyOptics::BodyOptics(const TranslucentMaterial& translucent) : material(translucent) {
     eta = static_cast<float>(translucent.medium.eta);
@@ -20,6 +28,10 @@ BodyOptics::BodyOptics(const TranslucentMaterial& translucent) : material(transl
         multipleScale[c] =
             static_cast<float>(multipleScatterScale(*profile, channel, translucent.energy, shown));
     }
+    double lowestAlbedo = 1;
+    for (int c = 0; c < 3; ++c)
+        lowestAlbedo = std::min(lowestAlbedo, translucent.medium.channel(c).reducedAlbedo());
+    if (lowestAlbedo > kHighAlbedo) singleProbability = 0.5f;
 }
 
 float BodyOptics::radiancePerExitance(float cosine) const {

@@ -20,6 +20,9 @@ struct BodyOptics {
     /// By which the diffusion sum is scaled before it leaves, so that light scattered once is not
     /// counted again by single scattering (medium/energy.h).
     Rgb multipleScale{1.0f};
+    /// Share of the camera samples that look for single scattering (weighted up accordingly): half
+    /// of them where it is a small part of what leaves, as it is at high albedo.
+    float singleProbability = 1;
     /// Exitance per transmitted irradiance when mean free paths are short: the diffuse limit
     /// [JMLH01 section 2.4], single scattering included.
     Rgb diffuseAlbedo{0.0f};

@@ -9,6 +9,9 @@ namespace {
 
 // Paths longer than this are continued by chance.
 constexpr int kRouletteDepth = 3;
+// Share of the camera samples whose reflection is followed: this many times its weight, and at
+// least so many.
+constexpr float kReflectionEffort = 8.0f, kLeastReflectionShare = 0.35f;
 // A direction drawn with less than this density (sr^-1) came from a diffuse or very rough lobe.
 constexpr float kWideLobe = 1.0f;
 
@@ -140,14 +143,19 @@ FilmSample PathTracer::trace(const Ray& ray, Sampler& sampler, PathCounts& count
     if (hit.body >= 0 && !fields_.empty()) {
         const BodyOptics& optics = *optics_[static_cast<std::size_t>(hit.body)];
         sample.diffusion = diffusion(hit, bsdf, counts) * optics.multipleScale;
-        if (optics.material.singleScattering)
-            sample.single = single(hit, bsdf, wo, bounces, sampler, counts);
+        if (optics.material.singleScattering && sampler.next1D() < optics.singleProbability)
+            sample.single =
+                single(hit, bsdf, wo, bounces, sampler, counts) / optics.singleProbability;
     }
     Ray next;
     ScatterOrigin origin;
     Rgb throughput(1);
-    if (scatter(hit, bsdf, sampler, next, origin, throughput))
-        sample.surface += throughput * incoming(next, origin, bounces, sampler, counts);
+    if (!scatter(hit, bsdf, sampler, next, origin, throughput)) return sample;
+    // A dielectric reflects 4 % of what it sees: not every sample needs to look.
+    const float survival =
+        std::clamp(kReflectionEffort * maxComponent(throughput), kLeastReflectionShare, 1.0f);
+    if (sampler.next1D() < survival)
+        sample.surface += throughput / survival * incoming(next, origin, bounces, sampler, counts);
     return sample;
 }
 

@@ -7,9 +7,9 @@
 namespace sss {
 namespace {
 
-// RMS error asked of the points: a quarter of the tolerance, as the largest error on a body is
-// three to four times the RMS.
-constexpr double kShareOfTolerance = 0.25;
+// RMS error asked of the points under even light: the largest error on a body is three to four
+// times the RMS, and light edges that cut through cells cost as much again.
+constexpr double kShareOfTolerance = 0.15;
 constexpr double kFactor = 0.125, kPowerOfW = 1.5, kPowerOfH = 3.2;
 // Coarser than this the rule was not measured, and cells are no longer small against the kernel.
 constexpr double kCoarsest = 1.5;

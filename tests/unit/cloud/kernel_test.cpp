@@ -20,13 +20,12 @@ std::array<const Profile*, 3> threeTimes(const Profile& p) { return {&p, &p, &p}
 double tableError(const Profile& profile, double mfp) {
     const double cell = 0.4 * mfp;
     const KernelTable table(threeTimes(profile), 1000 * mfp, cell);
-    const double peak = regularisedReflectance(profile, 0, cell);
+    const double peak = RegularisedProfile(profile, cell)(0);
     double worst = 0;
     for (int i = 0; i < 600; ++i) {
         const double r = mfp * (i == 0 ? 0.0 : 1e-3 * std::pow(10.0, i * 0.01));
         const auto u = static_cast<float>(r * r);
-        const double truth =
-            regularisedReflectance(profile, std::sqrt(static_cast<double>(u)), cell);
+        const double truth = RegularisedProfile(profile, cell)(std::sqrt(static_cast<double>(u)));
         if (truth < 1e-8 * peak || r > 999 * mfp) continue;
         const Rgb f = table.evaluate(u);
         EXPECT_EQ(f.x, f.y);
@@ -98,11 +97,11 @@ TEST(KernelTable, SingularProfileKeepsItsTotal) {
         double sum = 0;
         const double du = 0.01;
         for (double logU = std::log(1e-10); logU < std::log(1e4); logU += du)
-            sum += kPi * std::exp(logU) * du *
-                   regularisedReflectance(p, std::sqrt(std::exp(logU)), cell);
+            sum +=
+                kPi * std::exp(logU) * du * RegularisedProfile(p, cell)(std::sqrt(std::exp(logU)));
         EXPECT_NEAR(sum / p.total(), 1.0, 2e-4) << cell;
-        EXPECT_TRUE(std::isfinite(regularisedReflectance(p, 0, cell)));
-        EXPECT_EQ(regularisedReflectance(p, 5.1 * cell, cell), p.reflectance(5.1 * cell));
+        EXPECT_TRUE(std::isfinite(RegularisedProfile(p, cell)(0)));
+        EXPECT_EQ(RegularisedProfile(p, cell)(5.1 * cell), p.reflectance(5.1 * cell));
     }
 }
 
@@ -142,7 +141,7 @@ TEST(KernelTable, BoundsHoldAndDecrease) {
                     EXPECT_LE(bound, previous[k][c]);
                     previous[k][c] = bound;
                     const auto f = [&](double x) {
-                        return regularisedReflectance(optics.profile(c), x, cell);
+                        return RegularisedProfile(optics.profile(c), cell)(x);
                     };
                     if (f(r) < 1e-12 * f(0)) continue;
                     EXPECT_GE(static_cast<double>(bound),

@@ -1,0 +1,27 @@
+#pragma once
+#include "sss/medium/profile.h"
+
+namespace sss {
+
+/// A profile as the sum over samples sees it. A profile that grows without bound at r = 0 is
+/// averaged over a disk as large as a sample's cell, so that the sum integrates the singularity
+/// over the sample's own area: finite at 0, equal to the profile from 5 cell radii on, and with
+/// the profile's total (to 1e-4), so that the sum converges to it as the spacing shrinks. In
+/// between, the average gives way smoothly. Other profiles are left as they are.
+class RegularisedProfile {
+public:
+    /// `profile` must outlive this.
+    RegularisedProfile(const Profile& profile, double cellRadiusMm);
+    /// mm^-2.
+    double operator()(double rMm) const;
+
+private:
+    double average(double rMm) const;
+
+    const Profile& profile_;
+    double a_;
+    bool isSingular_;
+    double correction_ = 0;  // mm^-2, spread over 5 cell radii, so that the total stays
+};
+
+}  // namespace sss
