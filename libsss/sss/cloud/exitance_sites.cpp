@@ -1,6 +1,6 @@
 #include "sss/cloud/exitance_sites.h"
 
-#include "sss/cloud/morton.h"
+#include "sss/cloud/face_order.h"
 
 #include <algorithm>
 #include <array>
@@ -22,31 +22,16 @@ double longestEdge(const TriangleMesh& mesh, FaceIndex face) {
     return std::max({glm::length(b - a), glm::length(c - b), glm::length(a - c)});
 }
 
-std::vector<FaceIndex> spaceOrder(const TriangleMesh& mesh) {
-    Bounds box;
-    std::vector<Vec3> centres(mesh.faceCount());
-    for (FaceIndex f = 0; f < mesh.faceCount(); ++f) {
-        const UVec3 v = mesh.faces[f];
-        centres[f] = Vec3((mesh.positions[v.x] + mesh.positions[v.y] + mesh.positions[v.z]) / 3.0);
-        box.add(centres[f]);
-    }
-    const MortonGrid grid(box);
-    std::vector<std::pair<std::uint64_t, FaceIndex>> keyed(mesh.faceCount());
-    for (FaceIndex f = 0; f < mesh.faceCount(); ++f) keyed[f] = {grid.code(centres[f]), f};
-    std::sort(keyed.begin(), keyed.end());
-    std::vector<FaceIndex> order(mesh.faceCount());
-    std::transform(keyed.begin(), keyed.end(), order.begin(),
-                   [](const auto& k) { return k.second; });
-    return order;
-}
-
 // Sites that a face adds to those it shares with its neighbours, about.
 std::uint32_t ownSites(std::uint32_t segments) { return std::max(1u, segments * segments / 2); }
 
 }  // namespace
 
 ExitanceSites::ExitanceSites(const TriangleMesh& mesh, double segmentMm)
-    : mesh_(mesh), segmentMm_(segmentMm), faces_(mesh.faceCount()), faceOrder_(spaceOrder(mesh)) {
+    : mesh_(mesh),
+      segmentMm_(segmentMm),
+      faces_(mesh.faceCount()),
+      faceOrder_(facesInSpaceOrder(mesh)) {
     // A body so large that it would need absurdly many groups is cut more coarsely; refinement
     // still sees to the tolerance within a patch.
     std::uint64_t cutGroups = 0;

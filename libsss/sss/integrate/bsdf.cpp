@@ -1,5 +1,6 @@
 #include "sss/integrate/bsdf.h"
 
+#include "sss/base/warp.h"
 #include "sss/optics/fresnel.h"
 
 #include <algorithm>
@@ -16,11 +17,6 @@ Vec3 towards(const Vec3& n, const Vec3& side) { return glm::dot(n, side) < 0 ? -
 Vec3 usableShadingNormal(const SurfaceHit& hit, const Vec3& geometric, const Vec3& wo) {
     const Vec3 shading = towards(hit.shadingNormal, geometric);
     return glm::dot(shading, wo) > kGrazing ? shading : geometric;
-}
-
-Vec3 cosineDirection(const Vec2& u) {
-    const float radius = std::sqrt(u.x), phi = 2.0f * kPiF * u.y;
-    return {radius * std::cos(phi), radius * std::sin(phi), std::sqrt(std::max(0.0f, 1.0f - u.x))};
 }
 
 }  // namespace

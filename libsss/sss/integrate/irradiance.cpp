@@ -1,6 +1,7 @@
 #include "sss/integrate/irradiance.h"
 
 #include "sss/base/parallel.h"
+#include "sss/base/warp.h"
 #include "sss/optics/fresnel.h"
 
 #include <algorithm>
@@ -44,13 +45,11 @@ private:
     // Along a cosine-distributed direction: lights that scattering finds, and indirect light.
     Rgb scattered(const SurfaceHit& hit, const Vec3& normal, const Vec3& from, Sampler& sampler,
                   PathCounts& counts) const {
-        const Vec2 u = sampler.next2D();
-        const float radius = std::sqrt(u.x), phi = 2.0f * kPiF * u.y;
-        const float cosine = std::sqrt(std::max(0.0f, 1.0f - u.x));
+        const Vec3 local = cosineDirection(sampler.next2D());
+        const float cosine = local.z;
         Ray ray;
         ray.origin = from;
-        ray.direction =
-            Frame(normal).toWorld({radius * std::cos(phi), radius * std::sin(phi), cosine});
+        ray.direction = Frame(normal).toWorld(local);
         if (cosine <= 0 || glm::dot(ray.direction, hit.geometricNormal) <= 0) return Rgb(0);
         const ScatterOrigin origin{from, cosine / kPiF};
         return tracer_.incoming(ray, origin, world_.scene().quality.bounces, sampler, counts) *
