@@ -78,22 +78,23 @@ int CellGrid::find27(std::uint32_t cell, std::array<std::uint32_t, 27>& out) con
 }
 
 void CellGrid::listNeighbours() {
+    std::vector<std::vector<std::uint32_t>> chunks((cellCount() + kGrain - 1) / kGrain);
     firstNeighbour_.assign(cellCount() + 1, 0);
     parallelFor(cellCount(), kGrain, [&](std::size_t begin, std::size_t end) {
         std::array<std::uint32_t, 27> near;
-        for (std::size_t c = begin; c < end; ++c)
-            firstNeighbour_[c + 1] =
-                static_cast<std::uint32_t>(find27(static_cast<std::uint32_t>(c), near));
-    });
-    for (std::size_t c = 0; c < cellCount(); ++c) firstNeighbour_[c + 1] += firstNeighbour_[c];
-    neighbours_.resize(firstNeighbour_.back());
-    parallelFor(cellCount(), kGrain, [&](std::size_t begin, std::size_t end) {
-        std::array<std::uint32_t, 27> near;
+        std::vector<std::uint32_t>& found = chunks[begin / kGrain];
         for (std::size_t c = begin; c < end; ++c) {
             const int count = find27(static_cast<std::uint32_t>(c), near);
-            std::copy_n(near.begin(), count, neighbours_.begin() + firstNeighbour_[c]);
+            firstNeighbour_[c + 1] = static_cast<std::uint32_t>(count);
+            found.insert(found.end(), near.begin(), near.begin() + count);
         }
     });
+    for (std::size_t c = 0; c < cellCount(); ++c) firstNeighbour_[c + 1] += firstNeighbour_[c];
+    neighbours_.reserve(firstNeighbour_.back());
+    for (std::vector<std::uint32_t>& chunk : chunks) {
+        neighbours_.insert(neighbours_.end(), chunk.begin(), chunk.end());
+        std::vector<std::uint32_t>().swap(chunk);
+    }
 }
 
 }  // namespace sss

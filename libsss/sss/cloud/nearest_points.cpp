@@ -5,7 +5,6 @@
 #include <flann/flann.hpp>
 
 #include <algorithm>
-#include <array>
 #include <vector>
 
 namespace sss {
@@ -23,38 +22,31 @@ flann::Matrix<float> matrixOf(std::span<const Vec3> points) {
 
 struct NearestPoints::Impl {
     flann::KDTreeSingleIndex<flann::L2_Simple<float>> index;
-    std::size_t size;
 };
 
 NearestPoints::NearestPoints(std::span<const Vec3> points)
-    : impl_(new Impl{{matrixOf(points), flann::KDTreeSingleIndexParams(kLeafSize, true)},
-                     points.size()}) {
+    : impl_(new Impl{{matrixOf(points), flann::KDTreeSingleIndexParams(kLeafSize, true)}}) {
     impl_->index.buildIndex();
 }
 
 NearestPoints::~NearestPoints() = default;
 
-void NearestPoints::query(std::span<const Vec3> queries, std::span<Neighbours> out) const {
-    const auto k = static_cast<std::size_t>(std::min<std::size_t>(kMost, impl_->size));
+void NearestPoints::query(std::span<const Vec3> queries, std::size_t count,
+                          std::span<std::uint32_t> indices) const {
     parallelFor(queries.size(), kBatch, [&](std::size_t begin, std::size_t end) {
-        const std::size_t count = end - begin;
-        std::vector<int> indices(count * k);
-        std::vector<float> distances(count * k);
-        flann::Matrix<int> indexMatrix(indices.data(), count, k);
-        flann::Matrix<float> distanceMatrix(distances.data(), count, k);
+        const std::size_t batch = end - begin;
+        std::vector<int> found(batch * count);
+        std::vector<float> distances(batch * count);
+        flann::Matrix<int> indexMatrix(found.data(), batch, count);
+        flann::Matrix<float> distanceMatrix(distances.data(), batch, count);
         flann::SearchParams params(flann::FLANN_CHECKS_UNLIMITED);
         params.sorted = true;
         params.cores = 1;
-        impl_->index.knnSearch(matrixOf(queries.subspan(begin, count)), indexMatrix, distanceMatrix,
-                               k, params);
-        for (std::size_t i = 0; i < count; ++i) {
-            Neighbours& n = out[begin + i];
-            n.count = static_cast<int>(k);
-            for (std::size_t j = 0; j < k; ++j) {
-                n.index[j] = static_cast<std::uint32_t>(indices[i * k + j]);
-                n.distanceSquaredMm2[j] = distances[i * k + j];
-            }
-        }
+        impl_->index.knnSearch(matrixOf(queries.subspan(begin, batch)), indexMatrix, distanceMatrix,
+                               count, params);
+        std::transform(found.begin(), found.end(),
+                       indices.begin() + static_cast<std::ptrdiff_t>(begin * count),
+                       [](int i) { return static_cast<std::uint32_t>(i); });
     });
 }
 

@@ -5,7 +5,6 @@
 #include "sss/cloud/face_order.h"
 
 #include <algorithm>
-#include <numbers>
 #include <numeric>
 
 namespace sss {
@@ -31,8 +30,7 @@ DVec2 triangleFromSquare(double x, double y) {
 
 }  // namespace
 
-SurfaceStrata makeStrata(const TriangleMesh& mesh, std::size_t count, std::uint64_t seed,
-                         const StrataPart& part) {
+SurfaceStrata makeStrata(const TriangleMesh& mesh, std::size_t count, std::uint64_t seed) {
     const std::vector<FaceIndex> order = facesInSpaceOrder(mesh);
     std::vector<double> cumulative(order.size() + 1, 0.0);
     for (std::size_t k = 0; k < order.size(); ++k)
@@ -44,8 +42,7 @@ SurfaceStrata makeStrata(const TriangleMesh& mesh, std::size_t count, std::uint6
     strata.positions.resize(count);
     strata.faces.resize(count);
     strata.barycentrics.resize(count);
-    const double start = (part.index + Rng(combineSeeds(seed, count)).uniformDouble()) /
-                         static_cast<double>(part.of);
+    const double start = Rng(combineSeeds(seed, count)).uniformDouble();
     parallelFor(count, 4096, [&](std::size_t begin, std::size_t end) {
         std::size_t k = 0;
         for (std::size_t i = begin; i < end; ++i) {
@@ -59,18 +56,14 @@ SurfaceStrata makeStrata(const TriangleMesh& mesh, std::size_t count, std::uint6
             while (k + 1 < order.size() && cumulative[k + 1] <= along) ++k;
             const double faceShare = cumulative[k + 1] - cumulative[k];
             const double x = std::clamp((along - cumulative[k]) / faceShare, 0.0, 1.0);
-            // A per-face rotation keeps the Hammersley sets of neighbouring faces from lining up;
-            // parts stand apart by the golden ratio.
+            // A per-face rotation keeps the Hammersley sets of neighbouring faces from lining up.
             const double shift = Rng(combineSeeds(seed ^ 0x5bd1e995u, order[k])).uniformDouble();
-            double y = radicalInverse(static_cast<std::uint32_t>(i)) + shift +
-                       part.index * (std::numbers::phi - 1.0);
+            double y = radicalInverse(static_cast<std::uint32_t>(i)) + shift;
             y -= std::floor(y);
             const DVec2 b = triangleFromSquare(x, y);
-            const UVec3 v = mesh.faces[order[k]];
             strata.faces[i] = order[k];
             strata.barycentrics[i] = Vec2(b);
-            strata.positions[i] = Vec3(mesh.positions[v.x] * (1.0 - b.x - b.y) +
-                                       mesh.positions[v.y] * b.x + mesh.positions[v.z] * b.y);
+            strata.positions[i] = Vec3(mesh.positionAt(order[k], b));
         }
     });
     return strata;

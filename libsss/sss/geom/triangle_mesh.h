@@ -24,6 +24,11 @@ struct TriangleMesh {
         const UVec3 f = faces[face];
         return glm::cross(positions[f.y] - positions[f.x], positions[f.z] - positions[f.x]);
     }
+    /// The place of a face with these barycentrics (of its second and third corner).
+    DVec3 positionAt(FaceIndex face, const DVec2& b) const {
+        const UVec3 f = faces[face];
+        return positions[f.x] * (1.0 - b.x - b.y) + positions[f.y] * b.x + positions[f.z] * b.y;
+    }
     double faceArea(FaceIndex face) const { return 0.5 * glm::length(faceCross(face)); }
     double area() const {
         double sum = 0;

@@ -17,18 +17,21 @@ struct IrradianceResult {
     PathCounts counts;
 };
 
-/// Transmitted irradiance E = integral of L_i F_t(w_i) cos over the outer hemisphere, of every
-/// point of a body: direct light of all kinds with shadows, the environment, and light by way of
-/// other surfaces, translucent ones in their diffuse limit, for `bounces` bounces.
+/// Transmitted irradiance of every point of a body: direct light of all kinds with shadows, the
+/// environment, and light by way of other surfaces, translucent ones in their diffuse limit, for
+/// `bounces` bounces.
 ///
-/// The samples of a point are spread over the strata of its cell, so that what is cached is the
-/// mean over the cell: light edges and facets inside a cell are integrated, not missed or hit. The
-/// sum over points averages over all points within reach of the profile, so few samples a point are
-/// enough.
+/// Samples are spread over a point's cell, so that what is cached is the mean over the cell: light
+/// edges and facets inside a cell are integrated, not missed or hit.
+///
+/// The sum over points averages over all of them within reach of the profile (60 to 130 at the
+/// default spacing), and neighbours share one stratified sequence, so few samples a point are
+/// enough. The same number everywhere: giving dark and half-shadowed cells more, for the same sum
+/// of samples, was measured to be worse, since what a receiver lacks is the noise of the bright.
 IrradianceResult computeIrradiance(const World& world, int body, const SurfaceSamples& samples,
                                    const PathTracer& tracer, Reporter& reporter);
 
-/// Samples a point gets for a tolerance.
+/// Samples a point gets: the scene's own number, or by tolerance.
 int irradianceSamplesFor(const QualitySettings& quality);
 
 }  // namespace sss

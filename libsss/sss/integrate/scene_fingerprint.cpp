@@ -11,7 +11,7 @@ namespace sss {
 namespace {
 
 // Raised when the algorithms of pass 1 change what they make of the same input.
-constexpr std::uint64_t kPassOneVersion = 1;
+constexpr std::uint64_t kPassOneVersion = 2;
 
 void add(Hasher& h, const DVec3& v) { h.add(v.x).add(v.y).add(v.z); }
 void add(Hasher& h, const Rgb& v) { add(h, DVec3(v)); }

@@ -1,10 +1,12 @@
 #pragma once
 // What the tests of this module share: media by name, lit clouds, and exact integrals over patches.
 
+#include "sss/base/sampler.h"
 #include "sss/cloud/diffusion_sum.h"
 #include "sss/cloud/kernel_table.h"
 #include "sss/cloud/octree.h"
 #include "sss/cloud/surface_sampler.h"
+#include "sss/cloud/surface_strata.h"
 #include "sss/medium/measured_media.h"
 #include "sss/medium/profile.h"
 
@@ -38,7 +40,7 @@ using Light = std::function<Rgb(const Vec3&)>;  ///< transmitted irradiance at a
 
 inline Rgb white(const Vec3& /*place*/) { return Rgb(1.0f); }
 
-/// Points on a mesh, each with the mean irradiance of its strata as in pass 1, and their octree.
+/// Points on a mesh, each with the mean irradiance of its cell as in pass 1, and their octree.
 struct LitCloud {
     SurfaceSamples samples;
     std::vector<Rgb> irradiance;
@@ -47,12 +49,15 @@ struct LitCloud {
 
     LitCloud(const TriangleMesh& mesh, double spacing, const Light& light, std::uint64_t seed = 1)
         : samples(sampleSurface(mesh, {.spacingMm = spacing, .seed = seed})), spacingMm(spacing) {
+        constexpr std::uint32_t kPlaces = 64;
         for (std::size_t p = 0; p < samples.size(); ++p) {
             DRgb sum{0};
-            for (std::uint32_t s = samples.firstStratum[p]; s < samples.firstStratum[p + 1]; ++s)
-                sum += DRgb(light(samples.strata.positions[s]));
-            irradiance.push_back(Rgb(
-                sum / static_cast<double>(samples.firstStratum[p + 1] - samples.firstStratum[p])));
+            for (std::uint32_t k = 0; k < kPlaces; ++k) {
+                Sampler sampler(p, k);
+                const SurfacePlace place = samples.cells.placeIn(p, sampler.next2D());
+                sum += DRgb(light(Vec3(mesh.positionAt(place.face, DVec2(place.barycentrics)))));
+            }
+            irradiance.push_back(Rgb(sum / double{kPlaces}));
         }
         nodes = buildOctree(view());
     }
