@@ -28,8 +28,8 @@ void Profile::reflectance(std::span<const float> rMm, std::span<float> out) cons
 
 void Profile::reflectanceByTable(std::span<const float> rMm, std::span<float> out) const {
     std::call_once(tableOnce_, [this] {
-        table_ = std::make_unique<RadialTable>([this](double r) { return reflectance(r); },
-                                               scaleMm_, singularAtZero());
+        table_ =
+            std::make_unique<RadialTable>([this](double r) { return reflectance(r); }, scaleMm_);
     });
     for (std::size_t i = 0; i < rMm.size(); ++i) {
         out[i] = static_cast<float>((*table_)(static_cast<double>(rMm[i])));

@@ -1,11 +1,14 @@
 #include "sss/medium/tabulated.h"
 
+#include "sss/medium/grosjean.h"
 #include "sss/medium/photon_beam.h"
 #include "sss/medium/photon_profile.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
+#include <utility>
 
 namespace sss {
 namespace {
@@ -28,8 +31,10 @@ double asymptoticDecay(double reducedAbsorption) {
 /// ring, and with the true decay instead of the beam's beyond the last.
 class RatioCurve {
 public:
-    RatioCurve(const PhotonProfile& profile, double excessDecay)
-        : profile_(profile), excessDecay_(excessDecay), perLog_(1 / std::log(profile.stepRatio)) {}
+    RatioCurve(PhotonProfile profile, double excessDecay)
+        : profile_(std::move(profile)),
+          excessDecay_(excessDecay),
+          perLog_(1 / std::log(profile_.stepRatio)) {}
 
     double operator()(double r) const {
         const auto& y = profile_.logRatios;
@@ -52,8 +57,30 @@ public:
     }
 
 private:
-    const PhotonProfile& profile_;
+    PhotonProfile profile_;
     double excessDecay_, perLog_;
+};
+
+/// The simulated profile in transport mean free paths, but for its total: beam diffusion times the
+/// ratio to it that the simulation found.
+class RatioTimesBeam {
+public:
+    RatioTimesBeam(const ChannelMedium& unit, const PhotonProfile& simulated)
+        : decay(GrosjeanMedium(unit, exactFresnelMoments(unit.eta)).sigmaTr),
+          multiple_(
+              std::make_shared<PhotonBeam>(unit, PhotonBeam::Part::Multiple, ProfileOptions{})),
+          single_(std::make_shared<PhotonBeam>(unit, PhotonBeam::Part::Single, ProfileOptions{})),
+          ratio_(simulated, asymptoticDecay(unit.reducedAbsorption()) - decay) {}
+
+    double operator()(double r) const {
+        return ratio_(r) * (multiple_->reflectance(r) + single_->reflectance(r));
+    }
+
+    double decay;  ///< of the beam, per mean free path
+
+private:
+    std::shared_ptr<const PhotonBeam> multiple_, single_;
+    RatioCurve ratio_;
 };
 
 }  // namespace
@@ -72,18 +99,14 @@ Tabulated::Tabulated(const ChannelMedium& medium, const ProfileOptions& options)
                                                   : options.tabulatedCacheFolder);
     total_ = simulated.total;
     totalError_ = simulated.totalError;
+    if (!(total_ > 0)) return;
 
     const double absorption = key.reducedAbsorption;
     const ChannelMedium unit{absorption, (1 - absorption) / (1 - key.g), key.g, key.eta};
-    const PhotonBeam multiple(unit, PhotonBeam::Part::Multiple, {});
-    const PhotonBeam single(unit, PhotonBeam::Part::Single, {});
-    const double beamDecay = std::sqrt(3 * absorption / (1 + absorption));
-    const RatioCurve ratio(simulated, asymptoticDecay(absorption) - beamDecay);
-    table_.emplace(
-        [&](double r) { return ratio(r) * (multiple.reflectance(r) + single.reflectance(r)); }, 1.0,
-        true);
+    const RatioTimesBeam shape(unit, simulated);
+    table_.emplace(shape, 1.0);
     quadrature_.emplace([this](double r) { return (*table_)(r); }, 1.0,
-                        4 / std::max(beamDecay, 1e-300));
+                        4 / std::max(shape.decay, 1e-300));
     correction_ = total_ / quadrature_->tail(0);
 }
 
