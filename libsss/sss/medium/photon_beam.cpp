@@ -54,7 +54,10 @@ const RadialQuadrature& PhotonBeam::quadrature() const {
         const double once = eta > 1 ? eta + std::sqrt((eta - 1) * (eta + 1)) : 1.0;
         const bool multiple = part_ == Part::Multiple;
         const double decay = multiple ? grosjean_.sigmaTr : 2 * once * extinction_;
-        const double scale = multiple ? scaleMm() : scaleMm() / std::max(extinction_, 1.0);
+        // A backward peak shows within 1 + g of the beam.
+        const double scale =
+            multiple ? scaleMm()
+                     : scaleMm() / std::max(extinction_, 1.0) * (1 + std::min(medium_.g, 0.0));
         quadrature_ =
             std::make_unique<RadialQuadrature>([this](double r) { return reflectance(r); }, scale,
                                                4 * scaleMm() / std::max(decay, 1e-300));
@@ -67,7 +70,7 @@ double PhotonBeam::total() const {
 }
 
 double PhotonBeam::tail(double aMm) const {
-    return medium_.sigmaS > 0 ? quadrature().tail(aMm) : 0.0;
+    return medium_.sigmaS > 0 ? std::min(quadrature().tail(aMm), 1.0) : 0.0;
 }
 
 double PhotonBeam::reflectance(double rMm) const {
@@ -108,8 +111,9 @@ double PhotonBeam::multipleSampled(double r) const {
 double PhotonBeam::singleFromDepth(double r, double depth) const {
     const double d = slant(r, depth);
     const double cosine = depth / d;
-    return std::exp(-extinction_ * (depth + d)) * henyeyGreenstein(-cosine, medium_.g) * cosine /
-           (d * d);
+    const double offPeak = medium_.g >= 0 ? 1 + cosine : r / d * (r / (d + depth));
+    return std::exp(-extinction_ * (depth + d)) * henyeyGreensteinOffPeak(offPeak, medium_.g) *
+           cosine / (d * d);
 }
 
 // Integrated over y with depth^2 = t_c^2 + y^2, where t_c is the depth of the critical angle: the
