@@ -59,12 +59,9 @@ TEST(AlbedoInversion, RoundTripForEveryProfileAndRadius) {
 }
 
 TEST(AlbedoInversion, BeamAndSimulatedProfiles) {
-    for (const double color : {1e-6, 0.01, 0.6, 0.9}) {
-        for (const double g : {0.0, 0.9}) {
-            const ChannelMedium beam =
-                invertAlbedo("photon_beam", {color, 2.0, RadiusKind::TransportMfp, g});
-            EXPECT_NEAR(makeProfile("photon_beam", beam)->total(), color, 1e-6);
-        }
+    for (const double color : {1e-6, 0.6, 0.9}) {
+        const ChannelMedium beam = invertAlbedo("photon_beam", {color, 2.0});
+        EXPECT_NEAR(makeProfile("photon_beam", beam)->total(), color, 1e-6);
     }
     for (const double color : {0.01, 0.6, 0.999}) {
         const ChannelMedium exact = invertAlbedo("tabulated", {color, 2.0});
