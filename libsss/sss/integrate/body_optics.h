@@ -18,7 +18,7 @@ struct BodyOptics {
     /// exitance M exactly.
     float transmittance = 1;
     /// By which the diffusion sum is scaled before it leaves, so that light scattered once is not
-    /// counted again by single scattering (medium/energy.h).
+    /// counted again by single scattering (medium/energy.h); 1 without single scattering.
     Rgb multipleScale{1.0f};
     /// Share of the camera samples that look for single scattering (weighted up accordingly): half
     /// of them where it is a small part of what leaves, as it is at high albedo.

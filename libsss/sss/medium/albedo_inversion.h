@@ -42,6 +42,7 @@ struct OpenPbrSubsurface {
     DRgb radiusScale{1.0, 0.5, 0.25};  ///< subsurface_radius_scale
     double anisotropy = 0;             ///< subsurface_scatter_anisotropy, in (-1, 1)
     double ior = 1.5;                  ///< specular_ior
+    double roughness = 0.3;            ///< specular_roughness, of the boundary
 };
 
 /// Subsurface parameters of the Principled shader (defaults are Blender 4's). The mean free path of
@@ -52,6 +53,7 @@ struct PrincipledSubsurface {
     double scale = 0.005;        ///< subsurface_scale, scene units
     double anisotropy = 0;       ///< subsurface_anisotropy, in (-1, 1)
     double ior = 1.4;            ///< subsurface_ior
+    double roughness = 0.5;      ///< roughness, of the boundary
 };
 
 /// As media whose totals are the colors asked for, by the profile that will render them.

@@ -22,10 +22,9 @@ BetterDipole::BetterDipole(const ChannelMedium& medium, BoundaryModel boundary)
 
 double BetterDipole::reflectance(double rMm) const {
     const double r = rMm * sigmaTPrime_;
-    const double flux = fluxKernel(1, sigmaTr_, r) + fluxKernel(virtualHeight_, sigmaTr_, r);
-    const double fluence = fluenceKernel(1, virtualHeight_, sigmaTr_, r);
-    return strength_ * (fluenceWeight_ * fluence + fluxWeight_ * flux) / (4 * kPi) * sigmaTPrime_ *
-           sigmaTPrime_;
+    const ImagePair pair(1, virtualHeight_, sigmaTr_, r);
+    return strength_ * (fluenceWeight_ * pair.fluence + fluxWeight_ * pair.flux) / (4 * kPi) *
+           sigmaTPrime_ * sigmaTPrime_;
 }
 
 double BetterDipole::tail(double aMm) const {

@@ -24,6 +24,11 @@ namespace sss {
 // takes away is 0.2 % where single scattering is 6 to 8 %: 6 % too bright. The beam's kappa takes
 // out about half. So the convention does not ask what a profile claims: the shape of R_d is kept,
 // and its total is set to what is left for two and more scatterings.
+//
+// A material whose single scattering is switched off has nothing to share: its diffusion is not
+// scaled. It stands for all of the light then, and returns what its paper says, or the color that
+// its medium was made from; scaled, a dark color would go black, since most of it is scattered
+// once. (For one layer without the other there are the picture's layers.)
 
 enum class EnergyConvention {
     Consistent,  ///< diffusion + single scattering = the radiative-transfer total

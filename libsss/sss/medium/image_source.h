@@ -9,8 +9,10 @@ namespace sss {
 /// Distance from height z to a point at r on the surface; lengths below 1e150.
 inline double slant(double r, double z) { return std::sqrt(r * r + z * z); }
 
-/// Flux kernel z (1 + sigma d) e^{-sigma d} / d^3: odd in z, free of cancellation.
+/// Flux kernel z (1 + sigma d) e^{-sigma d} / d^3: odd in z, free of cancellation; 0 for a source
+/// in the surface itself.
 inline double fluxKernel(double z, double sigmaTr, double r) {
+    if (z == 0) return 0;
     const double d = slant(r, z);
     const double inverse = 1 / d;
     return z * inverse * inverse * inverse * (1 + sigmaTr * d) * std::exp(-sigmaTr * d);
@@ -32,14 +34,25 @@ inline double absorbedLength(double sigma, double x) {
     return sigma == 0 ? x : -std::expm1(-sigma * x) / sigma;
 }
 
-/// Fluence kernel e^{-sigma dr}/dr - e^{-sigma dv}/dv, rearranged so that it does not cancel as
-/// sigma -> 0 or r -> infinity:  e^{-sigma dr}/(dr dv) (gap - dr expm1(-sigma gap)).
-inline double fluenceKernel(double zr, double zv, double sigmaTr, double r) {
-    const double dr = slant(r, zr);
-    const double dv = slant(r, zv);
-    const double gap = distanceGap(zr, zv, r);
-    return std::exp(-sigmaTr * dr) / dr * ((gap - dr * std::expm1(-sigmaTr * gap)) / dv);
-}
+/// Both kernels of a source at depth zr with its mirror image at height zv > zr >= 0 above the
+/// surface: fluxKernel(zr) + fluxKernel(zv), and the fluence kernel e^{-sigma dr}/dr - e^{-sigma
+/// dv}/dv, rearranged so that it does not cancel as sigma -> 0 or r -> infinity. Two exponentials
+/// in all.
+struct ImagePair {
+    double flux, fluence;
+
+    ImagePair(double zr, double zv, double sigmaTr, double r) {
+        const double dr = slant(r, zr);
+        const double dv = slant(r, zv);
+        const double gap = (zv - zr) * (zv + zr) / (dr + dv);
+        const double atReal = std::exp(-sigmaTr * dr) / dr;
+        const double lost = -std::expm1(-sigmaTr * gap);
+        const double atMirror = atReal * dr * (1 - lost) / dv;
+        flux = zr * (1 + sigmaTr * dr) * atReal / (dr * dr) +
+               zv * (1 + sigmaTr * dv) * atMirror / (dv * dv);
+        fluence = atReal * (gap + dr * lost) / dv;
+    }
+};
 
 /// Tail of the fluence kernel: integral of r dr from `a` to infinity.
 inline double fluenceKernelTail(double zr, double zv, double sigmaTr, double a) {

@@ -63,7 +63,7 @@ Multipole::Multipole(const ChannelMedium& medium, double thicknessMm, Face face,
       halfSpaceTotal_(Dipole(medium, boundary).total()),
       literal_(boundary == BoundaryModel::Polynomial) {
     const double thickness = thicknessMm * sigmaTPrime_;
-    sourceDepth_ = literal_ ? 1.0 : std::min(1.0, thickness);
+    sourceDepth_ = literal_ || thickness > 1 ? 1.0 : 0.5 * thickness;
     period_ = thickness + 2 * extrapolation_;
     first_ = face == Face::Lit ? sourceDepth_ : thickness - sourceDepth_;
     second_ = face == Face::Lit ? -sourceDepth_ - 2 * extrapolation_

@@ -10,8 +10,9 @@ namespace sss {
 /// closed form near the source, the modes of the slab (Bessel K) far from it.
 ///
 /// The paper puts the source one mean free path deep, which in a thinner slab is outside, and R or
-/// T may be negative. With the exact boundary the source then lies on the far face and nothing is
-/// below 0; BoundaryModel::Polynomial keeps the paper's word.
+/// T may be negative. With the exact boundary the source then lies in the slab's middle, and
+/// nothing is below 0 (on the far face, where the limit would put it, it would be a point of
+/// light); BoundaryModel::Polynomial keeps the paper's word.
 class Multipole final : public Profile {
 public:
     enum class Face { Lit, Far };

@@ -12,14 +12,20 @@
 namespace sss {
 namespace {
 
-/// Integral over [0, range] of an f whose singularities lie on the imaginary axis: panels growing
-/// by a factor of 4 from `first`, none longer than `longest`.
+/// Share of an integral below which a panel beyond the maximum is the last.
+constexpr double kNegligible = 1e-15;
+
+/// Integral over [0, range] of a positive f with one maximum whose singularities lie on the
+/// imaginary axis: panels growing by a factor of 4 from `first`, none longer than `longest`, until
+/// one no longer counts.
 template <typename Function>
 double gradedQuadrature(double first, double longest, double range, const Function& f) {
     double sum = gauss16(0, first, f);
     for (double lo = first; lo < range;) {
         const double hi = std::min({4 * lo, lo + longest, range});
-        sum += gauss16(lo, hi, f);
+        const double panel = gauss16(lo, hi, f);
+        sum += panel;
+        if (panel <= kNegligible * sum) break;
         lo = hi;
     }
     return sum;
@@ -39,13 +45,32 @@ PhotonBeam::PhotonBeam(const ChannelMedium& medium, Part part, const ProfileOpti
       part_(part),
       samples_(options.beamSamples),
       sigmaTPrime_(medium.sigmaTPrime()),
-      extinction_(sigmaTPrime_ > 0 ? medium.sigmaT() / sigmaTPrime_ : 1) {
-    if (medium_.sigmaS == 0) return;
-    const double decay = part == Part::Multiple ? grosjean_.sigmaTr : 2 * extinction_;
-    quadrature_ =
-        std::make_unique<RadialQuadrature>([this](double r) { return reflectance(r); }, scaleMm(),
-                                           4 * scaleMm() / std::max(decay, 1e-300));
-    total_ = std::min(quadrature_->tail(0), 1.0);
+      extinction_(sigmaTPrime_ > 0 ? medium.sigmaT() / sigmaTPrime_ : 1) {}
+
+const RadialQuadrature& PhotonBeam::quadrature() const {
+    std::call_once(quadratureOnce_, [this] {
+        // Once scattered light goes down to the critical angle's depth and up along it.
+        const double eta = medium_.eta;
+        const double once = eta > 1 ? eta + std::sqrt((eta - 1) * (eta + 1)) : 1.0;
+        const bool multiple = part_ == Part::Multiple;
+        const double decay = multiple ? grosjean_.sigmaTr : 2 * once * extinction_;
+        // A backward peak shows within 1 + g of the beam.
+        const double scale =
+            multiple ? scaleMm()
+                     : scaleMm() / std::max(extinction_, 1.0) * (1 + std::min(medium_.g, 0.0));
+        quadrature_ =
+            std::make_unique<RadialQuadrature>([this](double r) { return reflectance(r); }, scale,
+                                               4 * scaleMm() / std::max(decay, 1e-300));
+    });
+    return *quadrature_;
+}
+
+double PhotonBeam::total() const {
+    return medium_.sigmaS > 0 ? std::min(quadrature().tail(0), 1.0) : 0.0;
+}
+
+double PhotonBeam::tail(double aMm) const {
+    return medium_.sigmaS > 0 ? std::min(quadrature().tail(aMm), 1.0) : 0.0;
 }
 
 double PhotonBeam::reflectance(double rMm) const {
@@ -59,22 +84,17 @@ double PhotonBeam::reflectance(double rMm) const {
     return scale * (part_ == Part::Multiple ? multiple(r) : single(r));
 }
 
-double PhotonBeam::tail(double aMm) const { return quadrature_ ? quadrature_->tail(aMm) : 0.0; }
-
 // [HCJ13 Eq. 9, 10]: dipole of a source at `depth`, times kappa alpha'^2.
 double PhotonBeam::multipleFromDepth(double r, double depth) const {
-    const double mirror = depth + grosjean_.extrapolation;
-    const double sigmaTr = grosjean_.sigmaTr;
-    const double flux = fluxKernel(depth, sigmaTr, r) + fluxKernel(mirror, sigmaTr, r);
-    const double fluence = fluenceKernel(depth, mirror, sigmaTr, r);
+    const ImagePair pair(depth, depth + grosjean_.extrapolation, grosjean_.sigmaTr, r);
     const double kappa = -std::expm1(-2 * (slant(r, depth) + depth));
     const double albedo = medium_.reducedAlbedo();
     return kappa * albedo * albedo *
-           (grosjean_.fluenceWeight * fluence + grosjean_.fluxWeight * flux) / (4 * kPi);
+           (grosjean_.fluenceWeight * pair.fluence + grosjean_.fluxWeight * pair.flux) / (4 * kPi);
 }
 
 double PhotonBeam::multiple(double r) const {
-    return gradedQuadrature(0.25 * std::min(r, 1.0), 3, kRange, [&](double depth) {
+    return gradedQuadrature(0.25 * std::min(r, 1.0), 8, kRange, [&](double depth) {
         return std::exp(-depth) * multipleFromDepth(r, depth);
     });
 }
@@ -91,8 +111,9 @@ double PhotonBeam::multipleSampled(double r) const {
 double PhotonBeam::singleFromDepth(double r, double depth) const {
     const double d = slant(r, depth);
     const double cosine = depth / d;
-    return std::exp(-extinction_ * (depth + d)) * henyeyGreenstein(-cosine, medium_.g) * cosine /
-           (d * d);
+    const double offPeak = medium_.g >= 0 ? 1 + cosine : r / d * (r / (d + depth));
+    return std::exp(-extinction_ * (depth + d)) * henyeyGreensteinOffPeak(offPeak, medium_.g) *
+           cosine / (d * d);
 }
 
 // Integrated over y with depth^2 = t_c^2 + y^2, where t_c is the depth of the critical angle: the
@@ -105,7 +126,9 @@ double PhotonBeam::single(double r) const {
     const double range = std::sqrt(reach * (reach + 2 * critical));
     const double scatter = medium_.sigmaS / sigmaTPrime_;
     const double smallest = std::min({critical > 0 ? critical : r, r, r * eta, 1 / extinction_});
-    return gradedQuadrature(0.25 * smallest, 3 / extinction_, range, [&](double y) {
+    // Far out depth^2 = t_c^2 + y^2 grows slowly with y.
+    const double longest = 4 / extinction_ * std::sqrt(std::max(1.0, critical * extinction_));
+    return gradedQuadrature(0.25 * smallest, longest, range, [&](double y) {
         const double depth = slant(critical, y);
         const double reflected = eta > 1
                                      ? fresnelReflectance(y / slant(y, r * eta), eta)

@@ -4,6 +4,7 @@
 #include "sss/medium/radial_quadrature.h"
 
 #include <memory>
+#include <mutex>
 
 namespace sss {
 
@@ -21,13 +22,15 @@ public:
     using Profile::reflectance;
     double reflectance(double rMm) const override;
     double tail(double aMm) const override;
-    double total() const override { return total_; }
+    double total() const override;
     bool singularAtZero() const override { return medium_.sigmaS > 0; }
     void reflectance(std::span<const float> rMm, std::span<float> out) const override {
         reflectanceByTable(rMm, out);
     }
 
 private:
+    /// Made at the first call: it costs some hundred evaluations of the profile.
+    const RadialQuadrature& quadrature() const;
     double multiple(double r) const;
     double multipleFromDepth(double r, double depth) const;
     double single(double r) const;
@@ -42,8 +45,8 @@ private:
     // In transport mean free paths.
     double sigmaTPrime_;  ///< mm^-1
     double extinction_;   ///< sigma_t / sigma'_t
-    std::unique_ptr<const RadialQuadrature> quadrature_;
-    double total_ = 0;
+    mutable std::once_flag quadratureOnce_;
+    mutable std::unique_ptr<const RadialQuadrature> quadrature_;
 };
 
 }  // namespace sss

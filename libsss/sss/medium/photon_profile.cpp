@@ -15,6 +15,8 @@ constexpr double kRingsPerDecade = 8;
 constexpr std::uint32_t kPhotonsPerBatch = 1000;
 constexpr std::uint64_t kBatchesPerRound = 64;
 constexpr std::uint64_t kMostBatches = 8192;
+/// Some 40 s of one core; the error reached is kept with the profile.
+constexpr std::uint64_t kMostCollisions = 1'000'000'000;
 /// Rings whose standard error is above this share say nothing about the curve.
 constexpr double kUselessError = 0.3;
 
@@ -103,7 +105,8 @@ double medianRingError(const PhotonTally& tally) {
 
 PhotonTally simulate(const PhotonProblem& problem, double relativeError) {
     PhotonTally tally;
-    for (std::uint64_t done = 0; done < kMostBatches; done += kBatchesPerRound) {
+    for (std::uint64_t done = 0; done < kMostBatches && tally.collisions < kMostCollisions;
+         done += kBatchesPerRound) {
         walkPhotons(problem, done, kBatchesPerRound, kPhotonsPerBatch, tally);
         const double total = tally.reflected.mean();
         if (tally.reflected.standardError() <= relativeError * total &&

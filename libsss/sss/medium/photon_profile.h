@@ -32,9 +32,10 @@ struct PhotonProfileKey {
 };
 
 /// Simulates until the total's standard error is below `relativeError` (and the median ring's below
-/// five times that), at least 64,000 photons. A few seconds for |g| <= 0.9. The ring values are
-/// smoothed by the stiffest curve that the statistics allow (third differences, chi^2 = count).
-/// Deterministic, whatever the number of threads.
+/// five times that), at least 64,000 photons, or until a billion collisions (40 s of one core,
+/// which only g > 0.9 needs), whatever comes first; `totalError` is what was reached. The ring
+/// values are smoothed by the stiffest curve that the statistics allow (third differences, chi^2 =
+/// count). Deterministic, whatever the number of threads.
 PhotonProfile simulatePhotonProfile(const PhotonProfileKey& key);
 
 /// $XDG_CACHE_HOME/sss/profiles or ~/.cache/sss/profiles; empty if neither variable is set.

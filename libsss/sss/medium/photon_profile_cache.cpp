@@ -14,7 +14,7 @@ namespace sss {
 namespace {
 
 /// Changes whenever the simulation or the file's layout does.
-constexpr std::uint64_t kVersion = 1;
+constexpr std::uint64_t kVersion = 2;
 constexpr std::string_view kMagic = "sss-photon-profile";
 
 std::uint64_t checksumOf(std::string_view text) {

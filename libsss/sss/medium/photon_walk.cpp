@@ -14,6 +14,16 @@ namespace {
 
 constexpr double kDeepMeanFreePaths = 30;
 constexpr double kDeepAbsorption = 1e-5;
+/// Transport mean free paths below which many small turns are taken together, and the g above which
+/// that pays.
+constexpr double kCondensedMeanFreePaths = 2;
+constexpr double kCondensedG = 0.6;
+
+/// One way to scatter: per mean free path 1/sigma_t of the medium proper.
+struct Scattering {
+    double extinction;  ///< collisions, absorbed ones included
+    double albedo;      ///< share that scatters
+};
 
 /// What all photons share.
 struct Walk {
@@ -22,6 +32,16 @@ struct Walk {
         const double transport = absorption + p.albedo * (1 - p.g);  // sigma'_t / sigma_t
         const FresnelMoments moments = exactFresnelMoments(p.eta);
         hemispherical = p.eta * p.eta * moments.transmittanceOut;
+        plain = {1, p.albedo};
+        if (p.g > kCondensedG && std::isinf(p.thickness)) {
+            // n and the rate for which moments one and two relax as they do in the medium:
+            // 1 - m_1 = 2/(n + 2), 1 - m_2 = 6 (n + 1)/((n + 2)(n + 3)).
+            const double n = 3 * p.g / (2 - p.g);
+            const double rate = p.albedo * (1 - p.g) * (n + 2) / 2;
+            condensed = {absorption + rate, rate / (absorption + rate)};
+            inverseExponent = 1 / (n + 1);
+            condensedDepth = kCondensedMeanFreePaths / transport;
+        }
         if (std::isinf(p.thickness) && absorption < kDeepAbsorption * transport) {
             deep = kDeepMeanFreePaths / transport;
             sigmaTr = std::sqrt(3 * absorption * transport);
@@ -34,10 +54,14 @@ struct Walk {
     double hemispherical;  ///< share of diffuse light that enters
     double deep = std::numeric_limits<double>::infinity();
     double sigmaTr = 0, extrapolation = 0;
+    Scattering plain{}, condensed{};
+    double condensedDepth = std::numeric_limits<double>::infinity();
+    double inverseExponent = 1;  ///< 1/(n + 1) of the phase function (1 + cos)^n
 };
 
 struct BatchResult {
     double reflected = 0, once = 0, transmitted = 0, unscattered = 0;
+    std::uint64_t collisions = 0;
     std::vector<double> rings;
 };
 
@@ -65,19 +89,26 @@ private:
 
     void step() {
         const PhotonProblem& p = walk_.problem;
-        const double free = -std::log1p(-rng_.uniformDouble());
+        const Scattering& here = below_ ? walk_.condensed : walk_.plain;
+        const double free = -std::log1p(-rng_.uniformDouble()) / here.extinction;
         const double z = position_.z + free * direction_.z;
-        if (z < 0 || z > p.thickness) {
+        if (below_ != (z > walk_.condensedDepth)) {
+            // Free paths have no memory: the next one starts here, with the other rate.
+            moveTo(walk_.condensedDepth);
+            below_ = !below_;
+        } else if (z < 0 || z > p.thickness) {
             cross(z < 0 ? 0.0 : p.thickness);
         } else {
             position_ += free * direction_;
-            weight_ *= p.albedo;
-            ++scatterings_;
+            weight_ *= here.albedo;
+            ++result_.collisions;
+            scatterings_ += below_ ? 2 : 1;
             if (z > walk_.deep) {
                 leaveByDiffusion();
                 return;
             }
-            scatter();
+            scatter(below_ ? 2 * std::pow(rng_.uniformDouble(), walk_.inverseExponent) - 1
+                           : sampleHenyeyGreenstein(rng_.uniformDouble(), p.g));
         }
         // Russian roulette between the weight after one scattering and half of it: near albedo 1
         // that is almost analog capture (a light photon costs as much as a heavy one), at low
@@ -87,11 +118,14 @@ private:
         }
     }
 
+    void moveTo(double depth) {
+        position_ += (depth - position_.z) / direction_.z * direction_;
+        position_.z = depth;
+    }
+
     /// Reaches the face at depth `face`: what Fresnel lets out is counted, the rest turns back.
     void cross(double face) {
-        const double length = (face - position_.z) / direction_.z;
-        position_ += length * direction_;
-        position_.z = face;
+        moveTo(face);
         const double reflectance = fresnelReflectanceFromInside(direction_.z, walk_.problem.eta);
         const double leaves = weight_ * (1 - reflectance);
         if (face > 0) {
@@ -112,8 +146,7 @@ private:
         result_.rings[static_cast<std::size_t>(ring)] += share;
     }
 
-    void scatter() {
-        const double c = sampleHenyeyGreenstein(rng_.uniformDouble(), walk_.problem.g);
+    void scatter(double c) {
         const double s = std::sqrt(std::max(0.0, (1 - c) * (1 + c)));
         double x, y, norm;  // a point in the unit disk, for the azimuth without sine and cosine
         do {
@@ -164,6 +197,7 @@ private:
     double weight_ = 1;
     int scatterings_ = 0;
     bool turned_ = false;  ///< has met a face from inside
+    bool below_ = false;   ///< the depth from which on turns are taken together
 };
 
 BatchResult runBatch(const Walk& walk, std::uint64_t batch, std::uint32_t photons) {
@@ -213,6 +247,7 @@ void walkPhotons(const PhotonProblem& problem, std::uint64_t first, std::uint64_
             tally.rings[i].add(result.rings[i] * each);
         }
         tally.photons += photonsPerBatch;
+        tally.collisions += result.collisions;
     }
 }
 

@@ -2,6 +2,7 @@
 
 #include "sss/medium/radial_envelope.h"
 #include "sss/medium/radial_table.h"
+#include "sss/optics/gauss_legendre.h"
 
 #include <cmath>
 
@@ -28,8 +29,8 @@ void Profile::reflectance(std::span<const float> rMm, std::span<float> out) cons
 
 void Profile::reflectanceByTable(std::span<const float> rMm, std::span<float> out) const {
     std::call_once(tableOnce_, [this] {
-        table_ = std::make_unique<RadialTable>([this](double r) { return reflectance(r); },
-                                               scaleMm_, singularAtZero());
+        table_ =
+            std::make_unique<RadialTable>([this](double r) { return reflectance(r); }, scaleMm_);
     });
     for (std::size_t i = 0; i < rMm.size(); ++i) {
         out[i] = static_cast<float>((*table_)(static_cast<double>(rMm[i])));
@@ -38,8 +39,13 @@ void Profile::reflectanceByTable(std::span<const float> rMm, std::span<float> ou
 
 double Profile::meanOverDisk(double areaMm2) const {
     const double radius = std::sqrt(areaMm2 / kPi);
-    // For a disk far below the mean free path total - tail would cancel; R_d is flat there.
+    // For a disk far below the mean free path total - tail would cancel; R_d is flat there, or
+    // r R_d nearly so.
     if (!singularAtZero() && radius < 1e-3 * scaleMm_) return reflectance(std::sqrt(0.5) * radius);
+    if (singularAtZero() && radius < 1e-5 * scaleMm_) {
+        return 2 * kPi / areaMm2 *
+               gauss16(0, radius, [this](double r) { return r * reflectance(r); });
+    }
     return (total() - tail(radius)) / areaMm2;
 }
 

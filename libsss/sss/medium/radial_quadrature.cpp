@@ -9,7 +9,7 @@ namespace sss {
 
 RadialQuadrature::RadialQuadrature(std::function<double(double)> function, double scale,
                                    double longestPanel)
-    : function_(std::move(function)), edges_{0, 1e-6 * scale} {
+    : function_(std::move(function)), edges_{0, 1e-4 * scale} {
     std::vector<double> panels{panel(edges_[0], edges_[1])};
     double sum = panels[0];
     // Without absorption the tail falls only like 1/r: the panels then go on for 13 decades.

@@ -5,7 +5,7 @@
 namespace sss {
 
 /// Tail integrals of 2 pi r f(r) for a profile without a closed form: panels that grow by a factor
-/// of 4 from 1e-6 `scale`, no longer than `longestPanel`, 16 Gauss points each; exact to about
+/// of 4 from 1e-4 `scale`, no longer than `longestPanel`, 16 Gauss points each; exact to about
 /// 1e-10 of the total for f that is at worst 1/r at 0 and falls at least like 1/r^3.
 class RadialQuadrature {
 public:

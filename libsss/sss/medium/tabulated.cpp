@@ -1,11 +1,15 @@
 #include "sss/medium/tabulated.h"
 
+#include "sss/medium/grosjean.h"
+#include "sss/medium/half_space.h"
 #include "sss/medium/photon_beam.h"
 #include "sss/medium/photon_profile.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
+#include <utility>
 
 namespace sss {
 namespace {
@@ -24,12 +28,31 @@ double asymptoticDecay(double reducedAbsorption) {
     return lo;
 }
 
+/// Forward scattering beyond this is simulated with this g and the same sigma'_s, because the walk
+/// costs 1/(1 - g).
+constexpr double kMostForward = 0.98;
+
+/// By how much that changes the total, by adding-doubling: below 0.1 % where 1 - alpha' < 0.1, up
+/// to 1 % at low albedo.
+double forwardCorrection(const ChannelMedium& medium, const PhotonProfileKey& key) {
+    if (medium.g <= kMostForward) return 1;
+    const double absorption = key.reducedAbsorption;
+    const auto totalAt = [&](double g) {
+        const HalfSpaceTotals totals =
+            halfSpaceTotals({absorption, (1 - absorption) / (1 - g), g, key.eta});
+        return key.illumination == Illumination::Normal ? totals.normal : totals.diffuse;
+    };
+    return totalAt(medium.g) / totalAt(key.g);
+}
+
 /// exp of the log ratios between rings, by Catmull-Rom cubics in log r; constant below the first
 /// ring, and with the true decay instead of the beam's beyond the last.
 class RatioCurve {
 public:
-    RatioCurve(const PhotonProfile& profile, double excessDecay)
-        : profile_(profile), excessDecay_(excessDecay), perLog_(1 / std::log(profile.stepRatio)) {}
+    RatioCurve(PhotonProfile profile, double excessDecay)
+        : profile_(std::move(profile)),
+          excessDecay_(excessDecay),
+          perLog_(1 / std::log(profile_.stepRatio)) {}
 
     double operator()(double r) const {
         const auto& y = profile_.logRatios;
@@ -52,8 +75,30 @@ public:
     }
 
 private:
-    const PhotonProfile& profile_;
+    PhotonProfile profile_;
     double excessDecay_, perLog_;
+};
+
+/// The simulated profile in transport mean free paths, but for its total: beam diffusion times the
+/// ratio to it that the simulation found.
+class RatioTimesBeam {
+public:
+    RatioTimesBeam(const ChannelMedium& unit, const PhotonProfile& simulated)
+        : decay(GrosjeanMedium(unit, exactFresnelMoments(unit.eta)).sigmaTr),
+          multiple_(
+              std::make_shared<PhotonBeam>(unit, PhotonBeam::Part::Multiple, ProfileOptions{})),
+          single_(std::make_shared<PhotonBeam>(unit, PhotonBeam::Part::Single, ProfileOptions{})),
+          ratio_(simulated, asymptoticDecay(unit.reducedAbsorption()) - decay) {}
+
+    double operator()(double r) const {
+        return ratio_(r) * (multiple_->reflectance(r) + single_->reflectance(r));
+    }
+
+    double decay;  ///< of the beam, per mean free path
+
+private:
+    std::shared_ptr<const PhotonBeam> multiple_, single_;
+    RatioCurve ratio_;
 };
 
 }  // namespace
@@ -63,7 +108,7 @@ Tabulated::Tabulated(const ChannelMedium& medium, const ProfileOptions& options)
     if (medium.sigmaS == 0) return;
     PhotonProfileKey key;
     key.reducedAbsorption = medium.reducedAbsorption();
-    key.g = medium.g;
+    key.g = std::min(medium.g, kMostForward);
     key.eta = medium.eta;
     key.illumination = options.tabulatedIllumination;
     key.relativeError = options.tabulatedError;
@@ -72,18 +117,15 @@ Tabulated::Tabulated(const ChannelMedium& medium, const ProfileOptions& options)
                                                   : options.tabulatedCacheFolder);
     total_ = simulated.total;
     totalError_ = simulated.totalError;
+    if (!(total_ > 0)) return;
+    total_ *= forwardCorrection(medium, key);
 
     const double absorption = key.reducedAbsorption;
     const ChannelMedium unit{absorption, (1 - absorption) / (1 - key.g), key.g, key.eta};
-    const PhotonBeam multiple(unit, PhotonBeam::Part::Multiple, {});
-    const PhotonBeam single(unit, PhotonBeam::Part::Single, {});
-    const double beamDecay = std::sqrt(3 * absorption / (1 + absorption));
-    const RatioCurve ratio(simulated, asymptoticDecay(absorption) - beamDecay);
-    table_.emplace(
-        [&](double r) { return ratio(r) * (multiple.reflectance(r) + single.reflectance(r)); }, 1.0,
-        true);
+    const RatioTimesBeam shape(unit, simulated);
+    table_.emplace(shape, 1.0);
     quadrature_.emplace([this](double r) { return (*table_)(r); }, 1.0,
-                        4 / std::max(beamDecay, 1e-300));
+                        4 / std::max(shape.decay, 1e-300));
     correction_ = total_ / quadrature_->tail(0);
 }
 

@@ -15,6 +15,10 @@ namespace sss {
 /// cache has when it no longer knows directions: the total is then right for diffuse light, and up
 /// to 2 % above that of light along the normal (marble 0.8048 against 0.7994).
 /// Illumination::Normal is the searchlight problem of the literature.
+///
+/// g > 0.98 is simulated as g = 0.98 with the same sigma'_s (their totals differ by less than 0.1 %
+/// where alpha' > 0.9) and the total is set right by adding-doubling, so that no medium takes more
+/// than a minute of one core.
 class Tabulated final : public Profile {
 public:
     Tabulated(const ChannelMedium& medium, const ProfileOptions& options);

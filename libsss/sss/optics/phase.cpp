@@ -8,17 +8,16 @@
 namespace sss {
 namespace {
 
-// 1 + g^2 - 2 g cos, written as a sum of positive terms.
 template <typename T>
-T denominator(T cosTheta, T g) {
-    const T away = 1 - std::abs(g);
-    const T toPeak = g >= 0 ? 1 - cosTheta : 1 + cosTheta;
-    return away * away + 2 * std::abs(g) * std::max(toPeak, T(0));
+T toPeak(T cosTheta, T g) {
+    return g >= 0 ? 1 - cosTheta : 1 + cosTheta;
 }
 
 template <typename T>
-T value(T cosTheta, T g) {
-    const T d = denominator(cosTheta, g);
+T value(T distance, T g) {
+    // 1 + g^2 - 2 g cos, written as a sum of positive terms.
+    const T away = 1 - std::abs(g);
+    const T d = away * away + 2 * std::abs(g) * std::max(distance, T(0));
     constexpr T kInverse4Pi = T(1 / (4 * kPi));
     return kInverse4Pi * (1 - g) * (1 + g) / (d * std::sqrt(d));
 }
@@ -40,8 +39,9 @@ T sample(T u, T g) {
 
 }  // namespace
 
-double henyeyGreenstein(double cosTheta, double g) { return value(cosTheta, g); }
-float henyeyGreenstein(float cosTheta, float g) { return value(cosTheta, g); }
+double henyeyGreenstein(double cosTheta, double g) { return value(toPeak(cosTheta, g), g); }
+double henyeyGreensteinOffPeak(double distance, double g) { return value(distance, g); }
+float henyeyGreenstein(float cosTheta, float g) { return value(toPeak(cosTheta, g), g); }
 double sampleHenyeyGreenstein(double u, double g) { return sample(u, g); }
 float sampleHenyeyGreenstein(float u, float g) { return sample(u, g); }
 

@@ -112,6 +112,14 @@ DRgb channelsOr(const Node& material, std::string_view key, const Range& range, 
     return material.value.find(key) != nullptr ? channels(member(material, key), range) : other;
 }
 
+/// `key` or our own "roughness", which readers of the other keys have in hand; else the default of
+/// the shader whose names are used.
+void readRoughness(TranslucentMaterial& out, const Node& material, std::string_view key,
+                   double otherwise) {
+    if (key != "roughness" && material.value.find("roughness") != nullptr) return;
+    out.roughness = numberOr(material, key, kFractionRange, otherwise);
+}
+
 /// OpenPBR 1.1 and Blender's Principled shader, their names, units and defaults.
 void readOpenPbr(TranslucentMaterial& out, const Node& material) {
     OpenPbrSubsurface p;
@@ -122,7 +130,7 @@ void readOpenPbr(TranslucentMaterial& out, const Node& material) {
     p.anisotropy =
         numberOr(material, "subsurface_scatter_anisotropy", kMeanCosineRange, p.anisotropy);
     p.ior = numberOr(material, "specular_ior", kEtaRange, p.ior);
-    out.roughness = numberOr(material, "specular_roughness", kFractionRange, out.roughness);
+    readRoughness(out, material, "specular_roughness", p.roughness);
     out.diffuseColor = p.color;
     invertAt(colour, [&] {
         out.medium = mediumFromOpenPbr(p, material.context.mmPerUnit, invertedProfile(out),
@@ -138,6 +146,7 @@ void readPrincipled(TranslucentMaterial& out, const Node& material) {
     p.scale = numberOr(material, "subsurface_scale", kSizeRange, p.scale);
     p.anisotropy = numberOr(material, "subsurface_anisotropy", kMeanCosineRange, p.anisotropy);
     p.ior = numberOr(material, "subsurface_ior", kEtaRange, p.ior);
+    readRoughness(out, material, "roughness", p.roughness);
     out.diffuseColor = p.baseColor;
     invertAt(colour, [&] {
         out.medium = mediumFromPrincipled(p, material.context.mmPerUnit, invertedProfile(out),

@@ -34,6 +34,7 @@ constexpr std::string_view kSingular[] = {
 
 // Integral of 2 pi r R r dr over [0, 5 a], where the singularity has been spread.
 double regularisedWithin(const Profile& profile, double a) {
+    const RegularisedProfile regularised(profile, a);
     double sum = 0;
     const double edges[] = {0, 0.25, 0.5, 0.75, 1, 1.25, 1.5, 2, 2.5, 3, 3.5, 4, 4.5, 5};
     for (std::size_t i = 0; i + 1 < std::size(edges); ++i) {
@@ -41,7 +42,7 @@ double regularisedWithin(const Profile& profile, double a) {
         const double h = (edges[i + 1] - edges[i]) * a / kSteps;
         for (int k = 0; k < kSteps; ++k) {
             const double r = edges[i] * a + (k + 0.5) * h;
-            sum += 2 * kPi * r * RegularisedProfile(profile, a)(r) * h;
+            sum += 2 * kPi * r * regularised(r) * h;
         }
     }
     return sum;
@@ -66,16 +67,17 @@ TEST_F(Regularise, IsFiniteAtZeroAndTheProfileFurtherOut) {
         const double a = 0.05 / 2.6241;
         const double mean = profile->meanOverDisk(kPi * a * a);
         // The mean over the disk, but for what keeps the total.
-        EXPECT_NEAR(RegularisedProfile(*profile, a)(0), mean, 0.03 * mean);
-        EXPECT_GT(RegularisedProfile(*profile, a)(0), profile->reflectance(a));
+        const RegularisedProfile regularised(*profile, a);
+        EXPECT_NEAR(regularised(0), mean, 0.03 * mean);
+        EXPECT_GT(regularised(0), profile->reflectance(a));
         // Decreasing, and the profile itself further out.
-        double last = RegularisedProfile(*profile, a)(0);
+        double last = regularised(0);
         for (double r = 0.01 * a; r < 5 * a; r *= 1.2) {
-            const double value = RegularisedProfile(*profile, a)(r);
+            const double value = regularised(r);
             EXPECT_LE(value, last * (1 + 2e-3)) << r / a;
             last = value;
         }
-        EXPECT_EQ(RegularisedProfile(*profile, a)(5 * a), profile->reflectance(5 * a));
+        EXPECT_EQ(regularised(5 * a), profile->reflectance(5 * a));
     }
 }
 

@@ -1,6 +1,7 @@
 #include "sss/integrate/bsdf.h"
 
 #include "sss/integrate/preprocess.h"
+#include "sss/medium/albedo_inversion.h"
 #include "unit/integrate/scene_maker.h"
 
 #include <gtest/gtest.h>
@@ -172,6 +173,31 @@ TEST(Bsdf, BodiesWithoutReflectionAndEmittersAreBlack) {
         EXPECT_TRUE(bsdf.isBlack());
         EXPECT_EQ(bsdf.sample({0.5f, 0.5f}).pdf, 0);
         EXPECT_EQ(bsdf.evaluate({0, 0, 1}), Rgb(0));
+    }
+}
+
+// With single scattering there is something to share; without, the profile is its paper's, and a
+// medium made from a colour still returns that colour, however dark.
+TEST(BodyOptics, ScalesDiffusionOnlyBesideSingleScattering) {
+    TranslucentMaterial marble = measured("Marble");
+    const BodyOptics both(marble);
+    marble.singleScattering = false;
+    const BodyOptics alone(marble);
+    EXPECT_EQ(alone.multipleScale, Rgb(1));
+    TranslucentMaterial dark;
+    dark.diffuseColor = DRgb(0.02);
+    const ChannelMedium channel = invertAlbedo("dipole", {0.02, 1});
+    dark.medium = {DRgb(channel.sigmaA), DRgb(channel.sigmaS), DRgb(0), channel.eta};
+    const BodyOptics shared(dark);
+    dark.singleScattering = false;
+    const BodyOptics whole(dark);
+    for (int c = 0; c < 3; ++c) {
+        EXPECT_GT(both.multipleScale[c], 0.9f);
+        EXPECT_LT(both.multipleScale[c], 1.0f);
+        EXPECT_LT(shared.multipleScale[c], 0.7f);  // most of so dark a color is scattered once
+        EXPECT_NEAR(static_cast<double>(whole.multipleScale[c]) *
+                        whole.profiles[static_cast<std::size_t>(c)]->total(),
+                    0.02, 1e-8);
     }
 }
 

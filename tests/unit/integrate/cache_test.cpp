@@ -19,7 +19,7 @@ using testing::TemporaryFolder;
 
 SceneMaker smallScene() {
     SceneMaker maker;
-    maker.object(SphereShape{3}, maker.material(measured("Marble")));
+    maker.object(BoxShape{DVec3(5)}, maker.material(measured("Marble")));
     maker.object(RectangleShape{20, 20}, maker.material(LambertianMaterial{}),
                  testing::moved({0, 0, -6}));
     maker.light(DirectionalLight{{0, -1, -1}, Rgb(2)});
@@ -58,7 +58,7 @@ TEST(SceneFingerprint, NamesExactlyWhatChanged) {
          [](Scene& s) { std::get<DirectionalLight>(s.lights[0]).irradiance.y = 3; },
          {"lights"}},
         {"another light", [](Scene& s) { s.lights.emplace_back(PointLight{}); }, {"lights"}},
-        {"mesh", [](Scene& s) { s.objects[0].shape = SphereShape{3.01}; }, {"mesh"}},
+        {"mesh", [](Scene& s) { s.objects[0].shape = BoxShape{DVec3(5.01)}; }, {"mesh"}},
         {"medium",
          [](Scene& s) {
              std::get<TranslucentMaterial>(s.materials[0].material).medium.sigmaA.z = 1;
@@ -156,7 +156,7 @@ TEST(CloudCache, OfAnotherSceneIsRefusedWithTheReason) {
         EXPECT_NE(message.find("made for another scene"), std::string::npos) << message;
         EXPECT_NE(message.find(word), std::string::npos) << message;
     };
-    expectRefused("mesh", [](Scene& s) { s.objects[0].shape = SphereShape{4}; });
+    expectRefused("mesh", [](Scene& s) { s.objects[0].shape = BoxShape{DVec3(4)}; });
     expectRefused("lights", [](Scene& s) { s.lights.clear(); });
     expectRefused("medium", [](Scene& s) { s.materials[0].material = measured("Ketchup"); });
     expectRefused("stands elsewhere", [](Scene& s) { s.objects.pop_back(); });

@@ -88,6 +88,19 @@ TEST(MaterialReader, ReadsTheNamesOfThePrincipledShaderInSceneUnits) {
     }
 }
 
+TEST(MaterialReader, BoundariesAreAsRoughAsTheNamesUsedHaveThem) {
+    const auto roughness = [](const std::string& look) {
+        return translucent(read({.materials = R"("milk": {"type": "translucent", )" + look + "}"}))
+            .roughness;
+    };
+    EXPECT_EQ(roughness(R"("medium": "Marble")"), 0.0);
+    EXPECT_EQ(roughness(R"("subsurface_color": 0.5)"), 0.3);
+    EXPECT_EQ(roughness(R"("subsurface_color": 0.5, "specular_roughness": 0)"), 0.0);
+    EXPECT_EQ(roughness(R"("roughness": 0.1, "subsurface_color": 0.5)"), 0.1);
+    EXPECT_EQ(roughness(R"("base_color": 0.5)"), 0.5);
+    EXPECT_EQ(roughness(R"("base_color": 0.5, "roughness": 0)"), 0.0);
+}
+
 TEST(MaterialReader, ReadsTheEnergyConvention) {
     EXPECT_EQ(translucent(read({})).energy, EnergyConvention::Consistent);
     const std::string look = R"("milk": {"type": "translucent", "medium": "Marble", "energy": )";
