@@ -40,6 +40,9 @@ public:
 /// A cloud with everything that its sums need.
 struct Hierarchy {
     Hierarchy(const Stage& stage, BodyCloud made);
+    Hierarchy(const Hierarchy&) = delete;
+    Hierarchy& operator=(const Hierarchy&) = delete;
+
     BodyCloud cloud;
     KernelTable table;
     DiffusionSum sum;
