@@ -23,7 +23,6 @@ def frame_rows(frame):
     return [{
         "run": name, "label": run["label"], "cpuMinS": run["cpuMin"],
         "cpuMedianS": run["cpuMedian"], "wallMinS": run["wallMin"], "memoryBytes": run["memory"],
-        **({} if name != "render" else {}),
     } for name, run in frame["programs"].items()]
 
 
