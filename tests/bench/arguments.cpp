@@ -8,7 +8,8 @@
 namespace sss::bench {
 namespace {
 
-constexpr const char* kUsage = "see tests/bench/README.md; tests/bench/run.py is the way to call it";
+constexpr const char* kUsage =
+    "see tests/bench/README.md; tests/bench/run.py is the way to call it";
 
 [[noreturn]] void usage(const std::string& where, const std::string& what) {
     throw Error(ErrorKind::Usage, where, what, kUsage);

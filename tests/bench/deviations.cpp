@@ -27,8 +27,8 @@ struct Spread {
         json.set("rms", std::sqrt(squares / n)).set("bias", sum / n);
         if (worst.empty()) return json.set("p999", 0).set("max", 0), json;
         // The smallest value that 99.9 % of the receivers do not exceed.
-        const auto rank = static_cast<std::size_t>(
-            std::ceil(0.999 * static_cast<double>(worst.size())));
+        const auto rank =
+            static_cast<std::size_t>(std::ceil(0.999 * static_cast<double>(worst.size())));
         json.set("p999", worst[rank - 1]).set("max", worst.back());
         return json;
     }

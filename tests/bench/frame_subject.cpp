@@ -126,9 +126,9 @@ JsonValue measureFrame(const Arguments& arguments) {
     parallelFor(places.size(), 8, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) brute[i] = field.sum().bruteForce(places[i]);
     });
-    const Stage relit(readScene(arguments.scene(), {.spacingMm = 0, .tolerance = 0,
-                                                    .irradianceSamples = relightSamples,
-                                                    .seed = 0}));
+    const Stage relit(readScene(
+        arguments.scene(),
+        {.spacingMm = 0, .tolerance = 0, .irradianceSamples = relightSamples, .seed = 0}));
     const std::vector<DRgb> converged =
         Hierarchy(relit, relit.makeCloud().cloud).bruteForce(places);
 

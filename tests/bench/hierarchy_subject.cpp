@@ -16,9 +16,8 @@ JsonValue measureHierarchy(const Arguments& arguments) {
     const Stage stage(readScene(arguments.scene(), quality));
     Stage::Made made = stage.makeCloud();
     const Hierarchy hierarchy(stage, std::move(made.cloud));
-    const std::vector<Vec3> receivers =
-        receiverGroups(stage.body().mesh,
-                       stage.optics().material.medium.smallestMeanFreePathMm(), receiverCount);
+    const std::vector<Vec3> receivers = receiverGroups(
+        stage.body().mesh, stage.optics().material.medium.smallestMeanFreePathMm(), receiverCount);
     const std::vector<DRgb> truth = hierarchy.bruteForce(receivers);
     input.receivers = receivers;
     input.truth = truth;

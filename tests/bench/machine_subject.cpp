@@ -13,7 +13,7 @@
 namespace sss::bench {
 namespace {
 
-constexpr int kRepeats = 7;
+constexpr int kRepeats = 15;
 
 // Best of several runs of `work`, which does `amount` of something: amount per second.
 template <typename Work>
@@ -48,7 +48,8 @@ double clockHertz() {
     });
 }
 
-constexpr int kChains = 12;  // enough to hide a multiply-add's latency of 4 to 5 cycles, two a cycle
+constexpr int kChains =
+    12;  // enough to hide a multiply-add's latency of 4 to 5 cycles, two a cycle
 constexpr int kRounds = 1'000'000;
 
 #if defined(__x86_64__)

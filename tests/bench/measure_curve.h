@@ -16,8 +16,8 @@ struct CurveInput {
     double secondsPerSetting = 2;  ///< further rounds are left out beyond it
 };
 
-/// [{name, label, setting, cost, curve: [{setting, seconds, secondsMedian, repeats, error, counts}]}],
-/// seconds and counts per receiver.
+/// [{name, label, setting, cost, curve: [{setting, seconds, secondsMedian, repeats, error,
+/// counts}]}], seconds and counts per receiver.
 JsonValue measureCurves(const CurveInput& input,
                         std::span<const std::unique_ptr<SumMethod>> methods);
 

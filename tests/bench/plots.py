@@ -26,7 +26,8 @@ plt.rcParams.update({
 
 def draw(result, folder):
     about = result["about"]
-    note = f"{about['processor']}, one core at {about['clockHertz'] / 1e9:.1f} GHz, {about['commit']}"
+    note = (f"{about['processor']}, one core at {about['clockHertz'] / 1e9:.1f} GHz, "
+            f"{about['commit']}")
     if "scenes" in result and result["scenes"]:
         save(error_over_time(result["scenes"]), note, folder / "error-over-time")
         save(time_over_tolerance(result["scenes"]), note, folder / "time-over-tolerance")
@@ -191,9 +192,8 @@ def tolerance_kept(scenes):
         for values, colour, style, _ in series:
             axis.plot(asked, values, color=colour, linestyle=style, linewidth=1)
         ends.append([(asked[-1], values[-1], text, colour) for values, colour, _, text in series])
-        for figure_name, text in (("max", "max (dotted)"), ("p999", "99.9 %")):
-            ends[-1].append((asked[-1], curve[-1][1][figure_name] * (1.001 if text[0] == "m" else 1),
-                             text, "#2c5aa0"))
+        for figure_name, text in (("p999", "99.9 %"), ("max", "max (dotted)")):
+            ends[-1].append((asked[-1], curve[-1][1][figure_name], text, CHANNELS[2]))
         log_axis(axis.xaxis, percent)
         log_axis(axis.yaxis, percent)
     for axis, names in zip(axes, ends):

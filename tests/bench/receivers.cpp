@@ -28,8 +28,7 @@ std::vector<Receiver> seenOnGrid(const Stage& stage, double step) {
             const SurfaceHit surface = world.surfaceAt(hit);
             if (surface.body != 0) continue;
             seen.push_back({surface.bodyFace, surface.barycentrics,
-                            positionOn(stage.body().mesh, surface.bodyFace,
-                                       surface.barycentrics)});
+                            positionOn(stage.body().mesh, surface.bodyFace, surface.barycentrics)});
         }
     return seen;
 }
@@ -41,8 +40,7 @@ std::vector<Receiver> receiversInView(const Stage& stage, std::size_t count) {
     const FilmSettings& film = stage.world().scene().film;
     const double coarse = std::max(1.0, film.height / 64.0);
     const auto covered = static_cast<double>(seenOnGrid(stage, coarse).size());
-    const double step =
-        coarse * std::sqrt(std::max(covered, 1.0) / static_cast<double>(count));
+    const double step = coarse * std::sqrt(std::max(covered, 1.0) / static_cast<double>(count));
     return seenOnGrid(stage, step);
 }
 

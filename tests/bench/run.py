@@ -3,9 +3,9 @@
 
     run.py [--smoke | --quick | --full] [--only frame,scaling,hierarchy] [--out DIR] [--fresh]
 
-Needs a release build (sss-preprocess, sss-render, sss-bench; SSS_BIN_DIR, or build/release/bin).
-Writes DIR/bench.json, CSV tables and, with Debian's python3-matplotlib, plots. README.md beside this
-file says what each figure means.
+Needs a release build (sss-preprocess, sss-render, sss-bench; SSS_BIN_DIR, or build/release/bin);
+run.sh beside this file makes one first. Writes DIR/bench.json, CSV tables and, with Debian's
+python3-matplotlib, plots. README.md beside this file says what each figure means.
 """
 
 import argparse
@@ -67,7 +67,7 @@ def main():
     options = arguments()
     for program in ("sss-preprocess", "sss-render", "sss-bench"):
         if not (BIN / program).exists():
-            raise BenchError(f"{BIN / program} is missing; run tests/run.sh --quick first, or name "
+            raise BenchError(f"{BIN / program} is missing; run tests/bench/run.sh instead, or name "
                              "the folder in SSS_BIN_DIR")
     options.out.mkdir(parents=True, exist_ok=True)
     options.cache.mkdir(parents=True, exist_ok=True)

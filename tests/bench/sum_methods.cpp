@@ -80,7 +80,7 @@ public:
     // curve covers the errors asked of ours.
     std::vector<double> settings(const std::vector<double>& tolerances) const override {
         std::vector<double> limits;
-        for (const double t : tolerances) limits.push_back(4 * std::pow(t, 0.83));
+        for (const double t : tolerances) limits.push_back(3 * std::pow(t, 0.83));
         return limits;
     }
     InteractionCost cost() const override {

@@ -1,6 +1,7 @@
 """The measurements as CSV and as text."""
 
 import csv
+import math
 
 
 def write(result, folder):
@@ -33,7 +34,8 @@ def curve_row(entry, method):
     moved = counts["nodes"] * cost["nodeBytes"] + counts["points"] * cost["pointBytes"]
     row = {
         "method": method["name"], "setting": entry["setting"],
-        "nsPerReceiver": 1e9 * entry["seconds"], "nsPerReceiverMedian": 1e9 * entry["secondsMedian"],
+        "nsPerReceiver": 1e9 * entry["seconds"],
+        "nsPerReceiverMedian": 1e9 * entry["secondsMedian"],
         "interactions": counts["interactions"], "nodes": counts["nodes"],
         "points": counts["points"], "nodesVisited": counts["nodesVisited"],
         "nsPerInteraction": 1e9 * entry["seconds"] / interactions,
@@ -72,7 +74,7 @@ def summary(result):
     if "scaling" in result:
         lines += scaling_summary(result["scaling"], about)
     for scene in result.get("scenes", []):
-        lines += scene_summary(scene)
+        lines += scene_summary(scene, about)
     return "\n".join(lines)
 
 
@@ -112,19 +114,42 @@ def scaling_summary(scaling, about):
     lines = ["", f"{scaling['scene']}, tolerance {scaling['tolerance']}",
              "   points   us a receiver  interactions   ns each  Gflop/s (of peak)  99.9 %     max"]
     for row in scaling_rows(scaling):
-        peak = f"{row['gigaflops'] / (about['peakFlops'] / 1e9):.0%}" if about["peakFlops"] else "-"
         lines.append(f"{row['cloudPoints']:9d}{row['nsPerReceiver'] / 1e3:16.2f}"
                      f"{row['interactions']:14.0f}{row['nsPerInteraction']:10.2f}"
-                     f"{row['gigaflops']:10.1f} ({peak}){row['p999']:14.1e}{row['max']:10.1e}")
+                     f"{row['gigaflops']:10.1f} {of_peak(row, about)}{row['p999']:14.1e}"
+                     f"{row['max']:10.1e}")
     return lines
 
 
-def scene_summary(scene):
-    lines = ["", f"{scene['title']}: {scene['points']} points; us a receiver until 99.9 % are within"]
+def scene_summary(scene, about):
+    lines = ["", f"{scene['title']}: {scene['points']} points; us a receiver until 99.9 % are "
+             "within"]
     targets = list(scene["methods"][0]["timeTo"])
     lines.append(" " * 26 + "".join(f"{float(target):>10.2%}" for target in targets))
     for method in scene["methods"]:
         times = (method["timeTo"][target] for target in targets)
         lines.append(f"  {method['label']:24}" + "".join(
             "         -" if t is None else f"{1e6 * t:10.1f}" for t in times))
-    return lines
+    lines.append("  what an interaction costs, near an error of 1 % (ours: asked for 1 %)")
+    lines.append(" " * 26 + "     each  ns each  exps  roots  rows  flops  bytes  "
+                 "Gflop/s (of peak)")
+    return lines + [counts_line(scene, method, about) for method in scene["methods"]]
+
+
+def counts_line(scene, method, about):
+    def distance(entry):
+        if method["name"] == "ours":
+            return abs(math.log(entry["setting"] / 0.01))
+        return abs(math.log(max(entry["error"]["p999"], 1e-12) / 0.01))
+
+    row = curve_row(min(method["curve"], key=distance), method)
+    return (f"  {method['label']:24}{row['interactions']:9.0f}{row['nsPerInteraction']:9.2f}"
+            f"{row['exponentialsPerInteraction']:6.0f}{row['squareRootsPerInteraction']:7.0f}"
+            f"{row['tableRowsPerInteraction']:6.0f}{row['flopsPerInteraction']:7.0f}"
+            f"{row['bytesPerInteraction']:7.0f}{row['gigaflops']:9.1f} {of_peak(row, about)}")
+
+
+def of_peak(row, about):
+    if not about["peakFlops"]:
+        return "(peak unknown)"
+    return f"({row['gigaflops'] / (about['peakFlops'] / 1e9):.0%})"
