@@ -3,5 +3,5 @@
 set -euo pipefail
 source "$(dirname -- "${BASH_SOURCE[0]}")/../../scenes/setup.sh"
 sss_install "${SSS_PACKAGES[@]}" "${SSS_BENCH_PACKAGES[@]}"
-sss_build release
+sss_build release preprocess render sss_bench
 PYTHONDONTWRITEBYTECODE=1 exec /usr/bin/python3 "$SSS_ROOT/tests/bench/run.py" "$@"
