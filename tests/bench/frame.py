@@ -106,7 +106,7 @@ def make_reference(scale, scene, spacing, options):
     it again."""
     wanted = spacing / math.sqrt(scale["denser"])
     fine = 2 ** (math.floor(4 * math.log2(wanted)) / 4)
-    settings = {"spacing": fine, "irradiance_samples": scale["irradianceSamples"],
+    settings = {"spacing": fine, "irradiance_samples": scale["referenceSamples"],
                 "receivers": scale["frameReceivers"]}
     content = json.loads(scene.read_text())
     key = hashlib.sha256(json.dumps([content, settings, 1], sort_keys=True).encode())

@@ -47,16 +47,21 @@ def scenes(scale, options):
 def with_mesh(path, target):
     """The scene with the absolute paths of its meshes; None if one is nowhere."""
     missing = []
+    folders = [SOURCE.parent / "shared/meshes"]
+    if "SSS_MESHES" in os.environ:
+        folders.insert(0, pathlib.Path(os.environ["SSS_MESHES"]))
 
     def find(scene):
         for item in scene["objects"]:
             if "mesh" not in item:
                 continue
-            mesh = pathlib.Path(item["mesh"])
-            places = [mesh, *(pathlib.Path(folder) / mesh.name for folder in
-                              (os.environ.get("SSS_MESHES", "."), SOURCE.parent / "shared/meshes"))]
-            there = [str(place.resolve()) for place in places if place.exists()]
-            item["mesh"] = there[0] if there else missing.append(mesh) or item["mesh"]
+            beside = pathlib.Path(item["mesh"])
+            there = [place for place in (beside, *(folder / beside.name for folder in folders))
+                     if place.exists()]
+            if there:
+                item["mesh"] = str(there[0].resolve())
+            else:
+                missing.append(beside)
 
     made = programs.derived_scene(path, target, find)
     return None if missing else made
