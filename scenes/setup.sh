@@ -12,6 +12,8 @@ SSS_PACKAGES=(
 )
 # For tests/run.sh only.
 SSS_TEST_PACKAGES=(clang-format clang-tidy python3-jsonschema)
+# For tests/bench/run.sh only: its plots.
+SSS_BENCH_PACKAGES=(python3-matplotlib)
 
 # Installs what is missing of the packages named.
 sss_install() {

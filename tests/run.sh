@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Every test of the project. Installs what is missing, builds what has changed, runs:
-#   release build and all its tests; clang-format; all tests under the address and
-#   undefined-behaviour sanitizers.
+#   release build and all its tests, the benchmark's plumbing among them; clang-format; all tests
+#   under the address and undefined-behaviour sanitizers.
 # --quick leaves out all but the first; --full adds the parallel parts under the thread sanitizer
 # and clang-tidy. Exit code 0 only if everything passed.
 set -uo pipefail

@@ -1,0 +1,111 @@
+#!/usr/bin/env python3
+"""The benchmark: what translucency costs and what error it has, always side by side.
+
+    run.py [--smoke | --quick | --full] [--only frame,scaling,hierarchy] [--out DIR] [--fresh]
+
+Needs a release build (sss-preprocess, sss-render, sss-bench; SSS_BIN_DIR, or build/release/bin);
+run.sh beside this file makes one first. Writes DIR/bench.json, CSV tables and, with Debian's
+python3-matplotlib, plots. README.md beside this file says what each figure means.
+"""
+
+import argparse
+import datetime
+import json
+import os
+import pathlib
+import sys
+
+import frame
+import hierarchy
+import machine
+import tables
+from programs import BIN, SOURCE, BenchError
+
+SCALES = {
+    # Plumbing only: does everything run and write what it should?
+    "smoke": {
+        "frameTolerance": 0.5, "pixels": 64, "runs": 1, "denser": 2, "irradianceSamples": 32,
+        "referenceSamples": 32, "frameReceivers": 128,
+        "points": [1e4], "tolerances": [0.1, 0.01], "receivers": 64, "rounds": 1,
+        "scenes": ["ketchup-slab"], "hierarchyTolerance": 0.5,
+    },
+    # Some minutes: rough figures, reference 4 times as dense.
+    "quick": {
+        "frameTolerance": 0, "pixels": 0, "runs": 3, "denser": 4, "irradianceSamples": 64,
+        "referenceSamples": 64, "frameReceivers": 768,
+        "points": [1e4, 3e4, 1e5], "tolerances": [0.1, 0.01, 0.001, 0.0001], "receivers": 512,
+        "rounds": 2, "scenes": list(hierarchy.SCENES), "hierarchyTolerance": 0.1,
+    },
+    # All of it. The reference's many points average their own noise out, so that few light samples
+    # are enough: "of the reference" says how well.
+    "full": {
+        "frameTolerance": 0, "pixels": 0, "runs": 5, "denser": 16, "irradianceSamples": 64,
+        "referenceSamples": 24, "frameReceivers": 1024,
+        "points": [1e4, 3e4, 1e5, 3e5, 1e6, 3e6, 1e7],
+        "tolerances": [0.1, 0.03, 0.01, 0.003, 0.001, 0.0003, 0.0001], "receivers": 1024,
+        "rounds": 3, "scenes": list(hierarchy.SCENES), "hierarchyTolerance": 0,
+    },
+}
+PARTS = ("frame", "scaling", "hierarchy")
+
+
+def arguments():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    for scale in SCALES:
+        parser.add_argument(f"--{scale}", dest="scale", action="store_const", const=scale)
+    parser.add_argument("--only", default=",".join(PARTS), help="parts, separated by commas")
+    parser.add_argument("--out", type=pathlib.Path, default=SOURCE / "out/bench")
+    parser.add_argument("--cache", type=pathlib.Path, default=SOURCE / "build/bench-cache",
+                        help="where costly references are kept")
+    parser.add_argument("--fresh", action="store_true", help="make the references again")
+    parser.set_defaults(scale="quick")
+    options = parser.parse_args()
+    options.parts = options.only.split(",")
+    for part in options.parts:
+        if part not in PARTS:
+            parser.error(f'no part "{part}": {", ".join(PARTS)}')
+    return options
+
+
+def main():
+    options = arguments()
+    for program in ("sss-preprocess", "sss-render", "sss-bench"):
+        if not (BIN / program).exists():
+            raise BenchError(f"{BIN / program} is missing; run tests/bench/run.sh instead, or name "
+                             "the folder in SSS_BIN_DIR")
+    options.out.mkdir(parents=True, exist_ok=True)
+    options.cache.mkdir(parents=True, exist_ok=True)
+    scale = SCALES[options.scale]
+    result = {"about": {
+        "scale": options.scale,
+        "date": datetime.datetime.now().astimezone().isoformat(timespec="minutes"),
+        "command": " ".join([os.path.relpath(sys.argv[0], SOURCE), *sys.argv[1:]]),
+        **machine.describe(),
+    }}
+    if "frame" in options.parts:
+        result["frame"] = frame.measure(scale, options)
+    if "scaling" in options.parts:
+        result["scaling"] = hierarchy.scaling(scale)
+    if "hierarchy" in options.parts:
+        result["scenes"] = hierarchy.scenes(scale, options)
+    (options.out / "bench.json").write_text(json.dumps(result, indent=1) + "\n")
+    tables.write(result, options.out)
+    draw(result, options.out)
+    print(tables.summary(result))
+    print(f"wrote {options.out}")
+
+
+def draw(result, folder):
+    try:
+        import plots
+    except ImportError as error:
+        print(f"no plots: {error.name} is missing (apt-get install python3-matplotlib)")
+        return
+    plots.draw(result, folder)
+
+
+if __name__ == "__main__":
+    try:
+        main()
+    except BenchError as error:
+        sys.exit(f"ERROR {error}")
