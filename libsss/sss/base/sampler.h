@@ -13,14 +13,17 @@ namespace sss {
 class Sampler {
 public:
     /// `seed` names the pixel or point, `index` its sample.
-    Sampler(std::uint64_t seed, std::uint32_t index) : seed_(seed), index_(index) {}
+    Sampler(std::uint64_t seed, std::uint32_t index);
     float next1D();
     Vec2 next2D();
+    /// Passes over a number, or a pair, that is not needed: what comes after stays the same, and a
+    /// dimension means the same in all samples of a pixel, as stratification needs.
+    void skip(std::uint32_t calls = 1) { dimension_ += calls; }
     std::uint32_t index() const { return index_; }
 
 private:
     std::uint64_t seed_;
-    std::uint32_t index_;
+    std::uint32_t index_, reversedIndex_;
     std::uint32_t dimension_ = 0;
 };
 

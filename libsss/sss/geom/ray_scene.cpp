@@ -170,11 +170,6 @@ std::array<Vec3, 3> RayScene::Impl::corners(const Hit& hit) const {
     return {mesh.positions[face.x], mesh.positions[face.y], mesh.positions[face.z]};
 }
 
-Vec3 RayScene::position(const Hit& hit) const {
-    const auto [a, b, c] = impl_->corners(hit);
-    return a * (1.0f - hit.u - hit.v) + b * hit.u + c * hit.v;
-}
-
 namespace {
 
 constexpr float kOffsetUlps = 64.0f * 0x1p-24f;
@@ -183,15 +178,15 @@ float largestCoordinate(const Vec3& v) { return maxComponent(glm::abs(v)); }
 
 }  // namespace
 
-Vec3 RayScene::leave(const Hit& hit, const Vec3& normal) const {
+RayScene::Place RayScene::place(const Hit& hit) const {
     const auto [a, b, c] = impl_->corners(hit);
     const float scale =
-        std::fmax(largestCoordinate(a), std::fmax(largestCoordinate(b), largestCoordinate(c)));
-    return position(hit) + normal * (scale * kOffsetUlps);
+        largestCoordinate(glm::max(glm::max(glm::abs(a), glm::abs(b)), glm::abs(c)));
+    return {a * (1.0f - hit.u - hit.v) + b * hit.u + c * hit.v, scale * kOffsetUlps};
 }
 
 Vec3 offsetFromSurface(const Vec3& point, const Vec3& normal) {
-    return point + normal * std::fmax(largestCoordinate(point) * kOffsetUlps, 0x1p-16f);
+    return point + normal * std::max(largestCoordinate(point) * kOffsetUlps, 0x1p-16f);
 }
 
 }  // namespace sss

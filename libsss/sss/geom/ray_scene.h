@@ -51,13 +51,21 @@ public:
     bool occluded(const Ray& ray, std::uint32_t mask = kAllGeometry) const;
     const Bounds& bounds() const { return bounds_; }
 
-    /// The point of a hit, from its face's corners: as exact as they are, however far away the ray
-    /// started (ray.at(t) carries the rounding of the whole way).
-    Vec3 position(const Hit& hit) const;
-    /// position(hit), moved off its face along `normal` by 64 units in the last place of the face's
-    /// largest corner coordinate: where the next ray starts. Unlike offsetFromSurface it knows the
-    /// face, so it holds at any scale and close to the origin too.
-    Vec3 leave(const Hit& hit, const Vec3& normal) const;
+    /// Where a hit lies, and where the next ray starts.
+    struct Place {
+        /// From the face's corners: as exact as they are, however far away the ray started
+        /// (ray.at(t) carries the rounding of the whole way).
+        Vec3 position;
+        /// 64 units in the last place of the face's largest corner coordinate, mm. Unlike
+        /// offsetFromSurface it knows the face, so it holds at any scale and close to the origin
+        /// too.
+        float step;
+        /// The position moved off its face along the unit `normal`.
+        Vec3 leave(const Vec3& normal) const { return position + normal * step; }
+    };
+    Place place(const Hit& hit) const;
+    Vec3 position(const Hit& hit) const { return place(hit).position; }
+    Vec3 leave(const Hit& hit, const Vec3& normal) const { return place(hit).leave(normal); }
 
 private:
     struct Impl;

@@ -79,6 +79,22 @@ bool isUsable(const FilmSample& s) {
            !std::isnan(s.depth);
 }
 
+void gather(const FilmSample& sample, FilmPixel& pixel) {
+    ++pixel.samples;
+    pixel.diffusion += DRgb(sample.diffusion);
+    pixel.single += DRgb(sample.single);
+    pixel.surface += DRgb(sample.surface);
+    const DRgb sum = DRgb(sample.diffusion) + DRgb(sample.single) + DRgb(sample.surface);
+    pixel.squares += sum * sum;
+    pixel.albedo += DRgb(sample.albedo);
+    pixel.normal += DVec3(sample.normal);
+    pixel.alpha += static_cast<double>(sample.alpha);
+    if (std::isfinite(sample.depth)) {
+        ++pixel.hits;
+        pixel.depth += static_cast<double>(sample.depth);
+    }
+}
+
 const FilmLayer* layerNamed(const std::string& name) {
     for (const FilmLayer& layer : kLayers)
         if (layer.name == name) return &layer;
@@ -116,28 +132,19 @@ Film::Film(int width, int height, const std::vector<std::string>& layers)
     }
 }
 
-void Film::add(int x, int y, const FilmSample& sample) {
+void Film::add(int x, int y, std::span<const FilmSample> samples) {
     SSS_ASSERT_LT(x, width_);
     SSS_ASSERT_LT(y, height_);
-    FilmPixel& pixel = pixels_[static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) +
+    FilmPixel& place = pixels_[static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) +
                                static_cast<std::size_t>(x)];
-    if (!isUsable(sample)) {
-        ++pixel.dropped;
-        return;
+    FilmPixel pixel = place;
+    for (const FilmSample& sample : samples) {
+        if (isUsable(sample))
+            gather(sample, pixel);
+        else
+            ++pixel.dropped;
     }
-    ++pixel.samples;
-    pixel.diffusion += DRgb(sample.diffusion);
-    pixel.single += DRgb(sample.single);
-    pixel.surface += DRgb(sample.surface);
-    const DRgb sum = DRgb(sample.diffusion) + DRgb(sample.single) + DRgb(sample.surface);
-    pixel.squares += sum * sum;
-    pixel.albedo += DRgb(sample.albedo);
-    pixel.normal += DVec3(sample.normal);
-    pixel.alpha += static_cast<double>(sample.alpha);
-    if (std::isfinite(sample.depth)) {
-        ++pixel.hits;
-        pixel.depth += static_cast<double>(sample.depth);
-    }
+    place = pixel;
 }
 
 Film::Dropped Film::dropped() const {

@@ -37,11 +37,12 @@ Bsdf PathTracer::bsdfAt(const SurfaceHit& hit, const Vec3& wo) const {
 
 Rgb PathTracer::directLight(const SurfaceHit& hit, const Bsdf& bsdf, Sampler& sampler,
                             PathCounts& counts) const {
-    const float uPick = sampler.next1D();
-    const Vec2 uLight = sampler.next2D();
-    if (!bsdf.hasSmoothPart()) return Rgb(0);
+    if (!bsdf.hasSmoothPart()) {
+        sampler.skip(2);
+        return Rgb(0);
+    }
     const Vec3 from = world_.leave(hit, bsdf.geometricNormal());
-    const DirectSample direct = sampleDirect(world_, from, uPick, uLight);
+    const DirectSample direct = sampleDirect(world_, from, bsdf.geometricNormal(), sampler);
     if (!(direct.pdf > 0)) return Rgb(0);
     const Rgb value = bsdf.evaluate(direct.direction);
     if (isZero(value)) return Rgb(0);
@@ -94,6 +95,8 @@ Rgb PathTracer::incoming(Ray ray, ScatterOrigin origin, int bounces, Sampler& sa
     Rgb sum(0), throughput(1);
     bool isWide = false;
     for (int depth = 0;; ++depth) {
+        if (depth >= bounces && !world_.hasEmitters())
+            return sum + throughput * radianceOfOpenLights(world_, ray, origin, counts.rays);
         Hit found;
         ++counts.rays;
         const bool isHit = world_.rays().intersect(ray, found);
@@ -112,11 +115,12 @@ Rgb PathTracer::incoming(Ray ray, ScatterOrigin origin, int bounces, Sampler& sa
         sum +=
             throughput * (directLight(hit, bsdf, sampler, counts) + diffusion(hit, bsdf, counts));
         if (!scatter(hit, bsdf, sampler, ray, origin, throughput)) return sum;
-        const float uRoulette = sampler.next1D();
         if (depth + 1 >= kRouletteDepth) {
             const float survival = std::min(0.95f, maxComponent(throughput));
-            if (!(uRoulette < survival)) return sum;
+            if (!(sampler.next1D() < survival)) return sum;
             throughput /= survival;
+        } else {
+            sampler.skip();
         }
     }
 }
@@ -154,7 +158,7 @@ FilmSample PathTracer::trace(const Ray& ray, Sampler& sampler, PathCounts& count
     // A dielectric reflects 4 % of what it sees: not every sample needs to look.
     const float survival =
         std::clamp(kReflectionEffort * maxComponent(throughput), kLeastReflectionShare, 1.0f);
-    if (sampler.next1D() < survival)
+    if (survival < 1.0f ? sampler.next1D() < survival : (sampler.skip(), true))
         sample.surface += throughput / survival * incoming(next, origin, bounces, sampler, counts);
     return sample;
 }

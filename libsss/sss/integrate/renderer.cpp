@@ -34,6 +34,7 @@ RenderResult render(const World& world, std::span<const std::unique_ptr<BodyOpti
     std::mutex mutex;
     parallelFor(tiles.size(), 1, [&](std::size_t begin, std::size_t end) {
         PathCounts counts;
+        std::vector<FilmSample> samples(static_cast<std::size_t>(settings.samples));
         for (std::size_t t = begin; t < end; ++t) {
             const Tile& tile = tiles[t];
             for (int y = tile.y0; y < tile.y1; ++y)
@@ -45,9 +46,15 @@ RenderResult render(const World& world, std::span<const std::unique_ptr<BodyOpti
                         const Vec2 centre(static_cast<float>(x) + 0.5f,
                                           static_cast<float>(y) + 0.5f);
                         const Vec2 pixel = centre + filter.sample(sampler.next2D());
-                        const Ray ray = world.camera().ray(pixel, sampler.next2D());
-                        film.add(x, y, tracer.trace(ray, sampler, counts));
+                        Vec2 lens(0.5f);
+                        if (world.camera().hasLens())
+                            lens = sampler.next2D();
+                        else
+                            sampler.skip();
+                        const Ray ray = world.camera().ray(pixel, lens);
+                        samples[static_cast<std::size_t>(s)] = tracer.trace(ray, sampler, counts);
                     }
+                    film.add(x, y, samples);
                 }
             progress.advance();
         }

@@ -41,6 +41,9 @@ public:
         float distance = 0;
     };
     virtual Seen seen(const Vec3& from, const Vec3& direction) const = 0;
+    /// Whether nothing of it lies above the plane through `point` with unit `normal`, so that a
+    /// surface there gets no light from it. False where that is not known.
+    virtual bool isBelow(const Vec3& /*point*/, const Vec3& /*normal*/) const { return false; }
     /// Flux that can reach a sphere around `target`, in relative terms: what a light is picked by.
     /// An estimate of the irradiance on a facing surface within, W m^-2, mean over the channels.
     virtual float importance(const Bounds& target) const = 0;

@@ -75,6 +75,14 @@ Light::Seen RectangleLightSource::seen(const Vec3& from, const Vec3& direction) 
             static_cast<float>(distance)};
 }
 
+bool RectangleLightSource::isBelow(const Vec3& point, const Vec3& normal) const {
+    // The corner that lies highest.
+    const DVec3 n(normal);
+    return glm::dot(centre_ - DVec3(point), n) + halfWidth_ * std::abs(glm::dot(across_, n)) +
+               halfHeight_ * std::abs(glm::dot(up_, n)) <=
+           0;
+}
+
 float RectangleLightSource::importance(const Bounds& target) const {
     const double front = largestCosine(centre_, normal_, target);
     const double back = twoSided_ ? largestCosine(centre_, -normal_, target) : 0;

@@ -28,6 +28,7 @@ Camera::Camera(const CameraSettings& settings, int width, int height, const DVec
     : positionMm_(settings.position),
       position_(settings.position - originMm),
       tanHalfFov_(std::tan(settings.fovDegrees * kPi / 360.0)),
+      tanPerPixel_(tanHalfFov_ / (0.5 * height)),
       width_(width),
       height_(height),
       apertureRadius_(static_cast<float>(settings.apertureRadiusMm)),
@@ -43,13 +44,13 @@ Camera::Camera(const CameraSettings& settings, int width, int height, const DVec
 
 Ray Camera::ray(const Vec2& pixel, const Vec2& lens) const {
     const double halfHeight = 0.5 * height_;
-    const auto x = static_cast<float>((pixel.x - 0.5 * width_) / halfHeight * tanHalfFov_);
-    const auto y = static_cast<float>((halfHeight - pixel.y) / halfHeight * tanHalfFov_);
+    const auto x = static_cast<float>((pixel.x - 0.5 * width_) * tanPerPixel_);
+    const auto y = static_cast<float>((halfHeight - pixel.y) * tanPerPixel_);
     const Vec3 through = forward_ + right_ * x + up_ * y;
     Ray ray;
     ray.origin = position_;
     ray.direction = glm::normalize(through);
-    if (apertureRadius_ > 0) {
+    if (hasLens()) {
         const Vec2 offset = diskFromSquare(lens) * apertureRadius_;
         const Vec3 target = position_ + through * focusDistance_;
         ray.origin = position_ + right_ * offset.x + up_ * offset.y;

@@ -15,6 +15,8 @@ public:
 
     /// Ray through `pixel` (0, 0 = the top left corner of the film), from `lens` in [0, 1)^2.
     Ray ray(const Vec2& pixel, const Vec2& lens) const;
+    /// Whether ray() looks at `lens`: a pinhole does not.
+    bool hasLens() const { return apertureRadius_ > 0; }
     const Vec3& forward() const { return forward_; }
     /// OpenEXR's worldToCamera and worldToNDC, in scene millimetres (not recentred), row vectors.
     std::array<double, 16> worldToCamera() const;
@@ -24,7 +26,7 @@ private:
     DVec3 positionMm_;  // as in the scene
     Vec3 position_;     // recentred
     Vec3 right_, up_, forward_;
-    double tanHalfFov_;
+    double tanHalfFov_, tanPerPixel_;
     int width_, height_;
     float apertureRadius_, focusDistance_;
 };
