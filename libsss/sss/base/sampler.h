@@ -12,6 +12,7 @@ namespace sss {
 /// Numbers are in [0, 1). Deterministic in (seed, index), a few nanoseconds each.
 class Sampler {
 public:
+    Sampler() = default;
     /// `seed` names the pixel or point, `index` its sample.
     Sampler(std::uint64_t seed, std::uint32_t index);
     float next1D();
@@ -22,8 +23,8 @@ public:
     std::uint32_t index() const { return index_; }
 
 private:
-    std::uint64_t seed_;
-    std::uint32_t index_, reversedIndex_;
+    std::uint64_t seed_ = 0;
+    std::uint32_t index_ = 0, reversedIndex_ = 0;
     std::uint32_t dimension_ = 0;
 };
 

@@ -25,6 +25,9 @@ struct Hit {
     Vec3 normal{};       ///< unit geometric normal by the winding (not turned to the ray)
 };
 
+/// What Hit::geometry says where a ray of several hit nothing.
+inline constexpr std::uint32_t kNoGeometry = 0xffffffffu;
+
 /// Bits of Ray queries: a geometry is seen if (its mask & the query's mask) != 0.
 inline constexpr std::uint32_t kAllGeometry = 0xffffffffu;
 
@@ -49,6 +52,12 @@ public:
     bool intersect(const Ray& ray, Hit& hit, std::uint32_t mask = kAllGeometry) const;
     /// Whether anything lies in (tMin, tMax).
     bool occluded(const Ray& ray, std::uint32_t mask = kAllGeometry) const;
+    /// The same for rays that start close together and go the same way, as those through one pixel
+    /// do: cheaper together. Hits of rays that hit nothing have kNoGeometry.
+    void intersectTogether(std::span<const Ray> rays, std::span<Hit> hits) const;
+    /// The same for rays to one light; the bit i of the result is set if ray i, of at most 64, is
+    /// occluded.
+    std::uint64_t occludedTogether(std::span<const Ray> rays) const;
     const Bounds& bounds() const { return bounds_; }
 
     /// Where a hit lies, and where the next ray starts.

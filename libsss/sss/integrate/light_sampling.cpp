@@ -64,12 +64,12 @@ DirectSample sampleDirect(const World& world, const Vec3& from, const Vec3& norm
     return sampleLight(world, pick, from, sampler.next2D());
 }
 
+Ray shadowRay(const Vec3& from, const DirectSample& sample) {
+    return {from, sample.direction, 0.0f, sample.distance * kShadowShare};
+}
+
 bool isVisible(const World& world, const Vec3& from, const DirectSample& sample) {
-    Ray ray;
-    ray.origin = from;
-    ray.direction = sample.direction;
-    ray.tMax = sample.distance * kShadowShare;
-    return !world.rays().occluded(ray);
+    return !world.rays().occluded(shadowRay(from, sample));
 }
 
 Rgb radianceOfLights(const World& world, const Ray& ray, float distance,

@@ -24,6 +24,8 @@ DirectSample sampleDirect(const World& world, const Vec3& from, float uPick, con
 DirectSample sampleDirect(const World& world, const Vec3& from, const Vec3& normal,
                           Sampler& sampler);
 
+/// From a point (already off its surface) to just before the end of a DirectSample.
+Ray shadowRay(const Vec3& from, const DirectSample& sample);
 /// Whether nothing stands between a point (already off its surface) and the end of a DirectSample.
 bool isVisible(const World& world, const Vec3& from, const DirectSample& sample);
 

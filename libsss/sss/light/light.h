@@ -27,6 +27,10 @@ public:
     virtual bool isDelta() const { return false; }
     /// Whether its light comes from infinitely far: what a ray that leaves the scene may see.
     virtual bool isInfinite() const { return false; }
+    /// Whether the radiance that arrives from infinity is the same from everywhere.
+    virtual bool isUniform() const { return false; }
+    /// What encloses a light that seen() finds at a finite distance; empty for others.
+    virtual Bounds visibleBounds() const { return {}; }
     /// Whether directions chosen for how the receiver scatters find it better than sample() does,
     /// as for light that comes evenly from everywhere; LightPicker then never picks it.
     virtual bool bestFoundByScattering() const { return false; }

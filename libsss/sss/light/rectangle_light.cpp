@@ -75,6 +75,14 @@ Light::Seen RectangleLightSource::seen(const Vec3& from, const Vec3& direction) 
             static_cast<float>(distance)};
 }
 
+Bounds RectangleLightSource::visibleBounds() const {
+    const DVec3 half = halfWidth_ * glm::abs(across_) + halfHeight_ * glm::abs(up_);
+    Bounds box;
+    box.add(Vec3(centre_ - half));
+    box.add(Vec3(centre_ + half));
+    return box;
+}
+
 bool RectangleLightSource::isBelow(const Vec3& point, const Vec3& normal) const {
     // The corner that lies highest.
     const DVec3 n(normal);

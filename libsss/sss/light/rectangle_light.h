@@ -12,6 +12,7 @@ public:
     RectangleLightSource(const RectangleLight& settings, const DVec3& originMm);
     LightSample sample(const Vec3& from, const Vec2& u) const override;
     Seen seen(const Vec3& from, const Vec3& direction) const override;
+    Bounds visibleBounds() const override;
     bool isBelow(const Vec3& point, const Vec3& normal) const override;
     float importance(const Bounds& target) const override;
 
