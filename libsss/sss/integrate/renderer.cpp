@@ -20,6 +20,13 @@ struct Tile {
 // Takes all samples of a pixel.
 class PixelSampler {
 public:
+    // Room for the samples that are taken together; one a thread.
+    struct Room {
+        std::array<Ray, PathTracer::kMostViews> rays;
+        std::array<Sampler, PathTracer::kMostViews> samplers;
+        std::array<FilmSample, PathTracer::kMostViews> seen;
+        PathCounts counts;
+    };
     PixelSampler(const World& world, const PathTracer& tracer)
         : settings_(world.scene().film),
           camera_(world.camera()),
@@ -28,42 +35,46 @@ public:
           foreground_(world, static_cast<float>(filter_.radiusPixels())),
           seed_(combineSeeds(world.scene().quality.seed, 0xca3e7aull)) {}
 
-    void sample(int x, int y, Film& film, PathCounts& counts) const {
-        std::array<FilmSample, PathTracer::kMostViews> seen;
+    void sample(int x, int y, Film& film, Room& room) const {
+        auto& seen = room.seen;
         const bool isForeground = foreground_.mayShow(x, y);
         if (!isForeground) {
-            counts.cameraSamples += static_cast<std::uint64_t>(settings_.samples);
-            for (FilmSample& sample : seen) sample.surface = foreground_.background();
+            room.counts.cameraSamples += static_cast<std::uint64_t>(settings_.samples);
+            FilmSample background;
+            background.surface = foreground_.background();
+            seen.fill(background);
         }
         for (int first = 0; first < settings_.samples; first += static_cast<int>(seen.size())) {
             const std::size_t count =
                 std::min(seen.size(), static_cast<std::size_t>(settings_.samples - first));
-            if (isForeground) look(x, y, first, std::span(seen).first(count), counts);
+            if (isForeground) look({x, y}, first, count, room);
             film.add(x, y, std::span(seen).first(count));
         }
     }
 
 private:
-    // Consecutive samples of a pixel.
-    void look(int x, int y, int first, std::span<FilmSample> seen, PathCounts& counts) const {
-        const std::uint64_t pixelSeed = combineSeeds(
-            seed_, static_cast<std::uint64_t>(y) << 32 | static_cast<std::uint64_t>(x));
-        const Vec2 centre(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f);
-        std::array<Ray, PathTracer::kMostViews> rays;
-        std::array<Sampler, PathTracer::kMostViews> samplers;
-        for (std::size_t i = 0; i < seen.size(); ++i) {
-            Sampler& sampler = samplers[i];
-            sampler = Sampler(pixelSeed,
-                              static_cast<std::uint32_t>(first) + static_cast<std::uint32_t>(i));
-            const Vec2 pixel = centre + filter_.sample(sampler.next2D());
+    struct Pixel {
+        int x, y;
+    };
+    // Takes `count` samples of a pixel from number `first` on.
+    void look(const Pixel& pixel, int first, std::size_t count, Room& room) const {
+        const std::uint64_t seed = combineSeeds(
+            seed_, static_cast<std::uint64_t>(pixel.y) << 32 | static_cast<std::uint64_t>(pixel.x));
+        const Vec2 centre(static_cast<float>(pixel.x) + 0.5f, static_cast<float>(pixel.y) + 0.5f);
+        for (std::size_t i = 0; i < count; ++i) {
+            Sampler& sampler = room.samplers[i];
+            sampler =
+                Sampler(seed, static_cast<std::uint32_t>(first) + static_cast<std::uint32_t>(i));
+            const Vec2 place = centre + filter_.sample(sampler.next2D());
             Vec2 lens(0.5f);
             if (camera_.hasLens())
                 lens = sampler.next2D();
             else
                 sampler.skip();
-            rays[i] = camera_.ray(pixel, lens);
+            room.rays[i] = camera_.ray(place, lens);
         }
-        tracer_.trace(std::span(rays).first(seen.size()), samplers, seen, counts);
+        tracer_.trace(std::span(room.rays).first(count), room.samplers,
+                      std::span(room.seen).first(count), room.counts);
     }
 
     const FilmSettings& settings_;
@@ -92,15 +103,15 @@ RenderResult render(const World& world, std::span<const std::unique_ptr<BodyOpti
     const PixelSampler pixels(world, tracer);
     std::mutex mutex;
     parallelFor(tiles.size(), 1, [&](std::size_t begin, std::size_t end) {
-        PathCounts counts;
+        PixelSampler::Room room;
         for (std::size_t t = begin; t < end; ++t) {
             const Tile& tile = tiles[t];
             for (int y = tile.y0; y < tile.y1; ++y)
-                for (int x = tile.x0; x < tile.x1; ++x) pixels.sample(x, y, film, counts);
+                for (int x = tile.x0; x < tile.x1; ++x) pixels.sample(x, y, film, room);
             progress.advance();
         }
         const std::scoped_lock lock(mutex);
-        result.counts.add(counts);
+        result.counts.add(room.counts);
     });
     result.image = film.develop();
     result.dropped = film.dropped();

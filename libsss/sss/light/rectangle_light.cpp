@@ -24,6 +24,7 @@ RectangleLightSource::RectangleLightSource(const RectangleLight& settings, const
       halfHeight_(0.5 * settings.heightMm),
       radiance_(settings.radiance),
       twoSided_(settings.twoSided) {
+    reach2_ = static_cast<float>(halfWidth_ * halfWidth_ + halfHeight_ * halfHeight_);
     across_ = acrossOf(settings.up, normal_);
     up_ = glm::normalize(glm::cross(normal_, across_));
     across_ = glm::cross(up_, normal_);
@@ -62,6 +63,10 @@ LightSample RectangleLightSource::sample(const Vec3& from, const Vec2& u) const 
 }
 
 Light::Seen RectangleLightSource::seen(const Vec3& from, const Vec3& direction) const {
+    // Most rays pass well beside it; float is enough to say so, with room for its rounding.
+    const Vec3 toCentre = Vec3(centre_) - from;
+    const float along = glm::dot(toCentre, direction), far2 = glm::dot(toCentre, toCentre);
+    if (far2 - along * along > reach2_ + 1e-4f * far2) return {};
     const DVec3 centre = centreFrom(from);
     const DVec3 d(direction);
     const double distance = centre.z / glm::dot(d, normal_);

@@ -29,6 +29,7 @@ private:
     DVec3 centre_;
     DVec3 across_, up_, normal_;
     double halfWidth_, halfHeight_;
+    float reach2_;  ///< squared distance from the centre to a corner
     Rgb radiance_;
     bool twoSided_;
 };
