@@ -14,6 +14,13 @@ endif()
 # SSS_ASSERT is on in every build but Release.
 target_compile_definitions(sss_options INTERFACE $<$<NOT:$<CONFIG:Release>>:SSS_ASSERTIONS=1>)
 
+# Empty, or the option for files that are optimised across their borders when a program is linked:
+# only where it is known to help, and never under a sanitizer.
+set(SSS_LINK_TIME_OPTIMISATION "")
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_BUILD_TYPE STREQUAL "Release" AND NOT SSS_SANITIZE)
+  set(SSS_LINK_TIME_OPTIMISATION -flto=auto)
+endif()
+
 if(SSS_SANITIZE)
   target_compile_options(sss_options INTERFACE
     -fsanitize=${SSS_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all

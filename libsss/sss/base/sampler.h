@@ -12,15 +12,19 @@ namespace sss {
 /// Numbers are in [0, 1). Deterministic in (seed, index), a few nanoseconds each.
 class Sampler {
 public:
+    Sampler() = default;
     /// `seed` names the pixel or point, `index` its sample.
-    Sampler(std::uint64_t seed, std::uint32_t index) : seed_(seed), index_(index) {}
+    Sampler(std::uint64_t seed, std::uint32_t index);
     float next1D();
     Vec2 next2D();
+    /// Passes over a number, or a pair, that is not needed: what comes after stays the same, and a
+    /// dimension means the same in all samples of a pixel, as stratification needs.
+    void skip(std::uint32_t calls = 1) { dimension_ += calls; }
     std::uint32_t index() const { return index_; }
 
 private:
-    std::uint64_t seed_;
-    std::uint32_t index_;
+    std::uint64_t seed_ = 0;
+    std::uint32_t index_ = 0, reversedIndex_ = 0;
     std::uint32_t dimension_ = 0;
 };
 

@@ -67,8 +67,7 @@ const T* setBuffer(RTCGeometry geometry, RTCBufferType type, RTCFormat format,
 
 /// Unit normal of a hit; of a needle whose float cross product vanished, a direction that at least
 /// faces the ray.
-Vec3 unitNormal(const RTCHit& hit, const Vec3& direction) {
-    const DVec3 n(hit.Ng_x, hit.Ng_y, hit.Ng_z);
+Vec3 unitNormal(const DVec3& n, const Vec3& direction) {
     const double length = glm::length(n);
     return length > 0 ? Vec3(n / length) : -direction;
 }
@@ -86,6 +85,41 @@ void fillRay(const Ray& ray, std::uint32_t mask, RTCRay& out) {
     out.mask = mask;
     out.id = 0;
     out.flags = 0;
+}
+
+constexpr std::size_t kPacket = 8;  // what AVX2 holds; Embree takes them apart where it must
+
+/// Fills a packet with the next rays; lanes without a ray are off.
+struct PacketLanes {
+    alignas(32) int valid[kPacket];
+    std::size_t count;
+
+    PacketLanes(std::span<const Ray> rays, std::size_t first, RTCRay8& out)
+        : count(std::min(kPacket, rays.size() - first)) {
+        for (std::size_t i = 0; i < kPacket; ++i) {
+            valid[i] = i < count ? -1 : 0;
+            const Ray& ray = rays[first + std::min(i, count - 1)];
+            out.org_x[i] = ray.origin.x;
+            out.org_y[i] = ray.origin.y;
+            out.org_z[i] = ray.origin.z;
+            out.dir_x[i] = ray.direction.x;
+            out.dir_y[i] = ray.direction.y;
+            out.dir_z[i] = ray.direction.z;
+            out.tnear[i] = ray.tMin;
+            out.tfar[i] = ray.tMax;
+            out.time[i] = 0;
+            out.mask[i] = kAllGeometry;
+            out.id[i] = 0;
+            out.flags[i] = 0;
+        }
+    }
+};
+
+RTCIntersectContext coherentContext() {
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+    return context;
 }
 
 }  // namespace
@@ -150,7 +184,7 @@ bool RayScene::intersect(const Ray& ray, Hit& hit, std::uint32_t mask) const {
     hit.face = query.hit.primID;
     hit.u = query.hit.u;
     hit.v = query.hit.v;
-    hit.normal = unitNormal(query.hit, ray.direction);
+    hit.normal = unitNormal({query.hit.Ng_x, query.hit.Ng_y, query.hit.Ng_z}, ray.direction);
     return true;
 }
 
@@ -164,15 +198,44 @@ bool RayScene::occluded(const Ray& ray, std::uint32_t mask) const {
     return query.tfar < ray.tMin;
 }
 
+void RayScene::intersectTogether(std::span<const Ray> rays, std::span<Hit> hits) const {
+    RTCIntersectContext context = coherentContext();
+    RTCRayHit8 query;
+    for (std::size_t first = 0; first < rays.size(); first += kPacket) {
+        const PacketLanes lanes(rays, first, query.ray);
+        std::fill_n(query.hit.geomID, kPacket, RTC_INVALID_GEOMETRY_ID);
+        rtcIntersect8(lanes.valid, impl_->scene, &context, &query);
+        for (std::size_t i = 0; i < lanes.count; ++i) {
+            Hit& hit = hits[first + i];
+            hit.geometry = query.hit.geomID[i];
+            if (hit.geometry == RTC_INVALID_GEOMETRY_ID) continue;
+            hit.t = query.ray.tfar[i];
+            hit.face = query.hit.primID[i];
+            hit.u = query.hit.u[i];
+            hit.v = query.hit.v[i];
+            hit.normal = unitNormal({query.hit.Ng_x[i], query.hit.Ng_y[i], query.hit.Ng_z[i]},
+                                    rays[first + i].direction);
+        }
+    }
+}
+
+std::uint64_t RayScene::occludedTogether(std::span<const Ray> rays) const {
+    RTCIntersectContext context = coherentContext();
+    RTCRay8 query;
+    std::uint64_t result = 0;
+    for (std::size_t first = 0; first < rays.size(); first += kPacket) {
+        const PacketLanes lanes(rays, first, query);
+        rtcOccluded8(lanes.valid, impl_->scene, &context, &query);
+        for (std::size_t i = 0; i < lanes.count; ++i)
+            if (query.tfar[i] < rays[first + i].tMin) result |= std::uint64_t{1} << (first + i);
+    }
+    return result;
+}
+
 std::array<Vec3, 3> RayScene::Impl::corners(const Hit& hit) const {
     const Mesh& mesh = meshes[hit.geometry];
     const UVec3 face = mesh.faces[hit.face];
     return {mesh.positions[face.x], mesh.positions[face.y], mesh.positions[face.z]};
-}
-
-Vec3 RayScene::position(const Hit& hit) const {
-    const auto [a, b, c] = impl_->corners(hit);
-    return a * (1.0f - hit.u - hit.v) + b * hit.u + c * hit.v;
 }
 
 namespace {
@@ -183,15 +246,15 @@ float largestCoordinate(const Vec3& v) { return maxComponent(glm::abs(v)); }
 
 }  // namespace
 
-Vec3 RayScene::leave(const Hit& hit, const Vec3& normal) const {
+RayScene::Place RayScene::place(const Hit& hit) const {
     const auto [a, b, c] = impl_->corners(hit);
     const float scale =
-        std::fmax(largestCoordinate(a), std::fmax(largestCoordinate(b), largestCoordinate(c)));
-    return position(hit) + normal * (scale * kOffsetUlps);
+        largestCoordinate(glm::max(glm::max(glm::abs(a), glm::abs(b)), glm::abs(c)));
+    return {a * (1.0f - hit.u - hit.v) + b * hit.u + c * hit.v, scale * kOffsetUlps};
 }
 
 Vec3 offsetFromSurface(const Vec3& point, const Vec3& normal) {
-    return point + normal * std::fmax(largestCoordinate(point) * kOffsetUlps, 0x1p-16f);
+    return point + normal * std::max(largestCoordinate(point) * kOffsetUlps, 0x1p-16f);
 }
 
 }  // namespace sss

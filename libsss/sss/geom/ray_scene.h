@@ -25,6 +25,9 @@ struct Hit {
     Vec3 normal{};       ///< unit geometric normal by the winding (not turned to the ray)
 };
 
+/// What Hit::geometry says where a ray of several hit nothing.
+inline constexpr std::uint32_t kNoGeometry = 0xffffffffu;
+
 /// Bits of Ray queries: a geometry is seen if (its mask & the query's mask) != 0.
 inline constexpr std::uint32_t kAllGeometry = 0xffffffffu;
 
@@ -49,15 +52,29 @@ public:
     bool intersect(const Ray& ray, Hit& hit, std::uint32_t mask = kAllGeometry) const;
     /// Whether anything lies in (tMin, tMax).
     bool occluded(const Ray& ray, std::uint32_t mask = kAllGeometry) const;
+    /// The same for rays that start close together and go the same way, as those through one pixel
+    /// do: cheaper together. Hits of rays that hit nothing have kNoGeometry.
+    void intersectTogether(std::span<const Ray> rays, std::span<Hit> hits) const;
+    /// The same for rays to one light; the bit i of the result is set if ray i, of at most 64, is
+    /// occluded.
+    std::uint64_t occludedTogether(std::span<const Ray> rays) const;
     const Bounds& bounds() const { return bounds_; }
 
-    /// The point of a hit, from its face's corners: as exact as they are, however far away the ray
-    /// started (ray.at(t) carries the rounding of the whole way).
-    Vec3 position(const Hit& hit) const;
-    /// position(hit), moved off its face along `normal` by 64 units in the last place of the face's
-    /// largest corner coordinate: where the next ray starts. Unlike offsetFromSurface it knows the
-    /// face, so it holds at any scale and close to the origin too.
-    Vec3 leave(const Hit& hit, const Vec3& normal) const;
+    /// Where a hit lies, and where the next ray starts.
+    struct Place {
+        /// From the face's corners: as exact as they are, however far away the ray started
+        /// (ray.at(t) carries the rounding of the whole way).
+        Vec3 position;
+        /// 64 units in the last place of the face's largest corner coordinate, mm. Unlike
+        /// offsetFromSurface it knows the face, so it holds at any scale and close to the origin
+        /// too.
+        float step;
+        /// The position moved off its face along the unit `normal`.
+        Vec3 leave(const Vec3& normal) const { return position + normal * step; }
+    };
+    Place place(const Hit& hit) const;
+    Vec3 position(const Hit& hit) const { return place(hit).position; }
+    Vec3 leave(const Hit& hit, const Vec3& normal) const { return place(hit).leave(normal); }
 
 private:
     struct Impl;

@@ -70,13 +70,37 @@ const std::vector<FilmLayer> kLayers{
      [](const FilmPixel& p, std::span<float> out) { out[0] = static_cast<float>(p.samples); }},
 };
 
-bool isUsable(const FilmSample& s) {
-    const auto isRadiance = [](const Rgb& c) {
-        return isFinite(c) && c.x >= 0 && c.y >= 0 && c.z >= 0;
-    };
-    return isRadiance(s.diffusion) && isRadiance(s.single) && isRadiance(s.surface) &&
-           isRadiance(s.albedo) && isFinite(s.normal) && std::isfinite(s.alpha) && s.alpha >= 0 &&
-           !std::isnan(s.depth);
+float lowest(const Rgb& c) { return std::min(c.x, std::min(c.y, c.z)); }
+
+// Whether a sample can be kept, of which `radiance` is the sum. A sum in double does not overflow,
+// so it is finite if every part is; NaN and infinity pass through.
+bool isUsable(const FilmSample& s, const DRgb& radiance) {
+    const DVec3 all = radiance + DRgb(s.albedo) + DVec3(s.normal);
+    const float least = std::min(std::min(lowest(s.diffusion), lowest(s.single)),
+                                 std::min(lowest(s.surface), lowest(s.albedo)));
+    return std::isfinite(all.x + all.y + all.z + static_cast<double>(s.alpha)) && least >= 0 &&
+           s.alpha >= 0 && !std::isnan(s.depth);
+}
+
+void gather(const FilmSample& sample, FilmPixel& pixel) {
+    const DRgb diffusion(sample.diffusion), single(sample.single), surface(sample.surface);
+    const DRgb sum = diffusion + single + surface;
+    if (!isUsable(sample, sum)) {
+        ++pixel.dropped;
+        return;
+    }
+    ++pixel.samples;
+    pixel.surface += surface;
+    pixel.squares += sum * sum;
+    pixel.diffusion += diffusion;
+    pixel.single += single;
+    pixel.albedo += DRgb(sample.albedo);
+    pixel.normal += DVec3(sample.normal);
+    pixel.alpha += static_cast<double>(sample.alpha);
+    if (std::isfinite(sample.depth)) {
+        ++pixel.hits;
+        pixel.depth += static_cast<double>(sample.depth);
+    }
 }
 
 const FilmLayer* layerNamed(const std::string& name) {
@@ -116,28 +140,14 @@ Film::Film(int width, int height, const std::vector<std::string>& layers)
     }
 }
 
-void Film::add(int x, int y, const FilmSample& sample) {
+void Film::add(int x, int y, std::span<const FilmSample> samples) {
     SSS_ASSERT_LT(x, width_);
     SSS_ASSERT_LT(y, height_);
-    FilmPixel& pixel = pixels_[static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) +
+    FilmPixel& place = pixels_[static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) +
                                static_cast<std::size_t>(x)];
-    if (!isUsable(sample)) {
-        ++pixel.dropped;
-        return;
-    }
-    ++pixel.samples;
-    pixel.diffusion += DRgb(sample.diffusion);
-    pixel.single += DRgb(sample.single);
-    pixel.surface += DRgb(sample.surface);
-    const DRgb sum = DRgb(sample.diffusion) + DRgb(sample.single) + DRgb(sample.surface);
-    pixel.squares += sum * sum;
-    pixel.albedo += DRgb(sample.albedo);
-    pixel.normal += DVec3(sample.normal);
-    pixel.alpha += static_cast<double>(sample.alpha);
-    if (std::isfinite(sample.depth)) {
-        ++pixel.hits;
-        pixel.depth += static_cast<double>(sample.depth);
-    }
+    FilmPixel pixel = place;
+    for (const FilmSample& sample : samples) gather(sample, pixel);
+    place = pixel;
 }
 
 Film::Dropped Film::dropped() const {

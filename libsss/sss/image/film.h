@@ -59,7 +59,8 @@ public:
     int height() const { return height_; }
     /// A sample that is not finite, or whose radiance, alpha or albedo is negative, is dropped
     /// whole and counted; the mean is then over the others.
-    void add(int x, int y, const FilmSample& sample);
+    void add(int x, int y, std::span<const FilmSample> samples);
+    void add(int x, int y, const FilmSample& sample) { add(x, y, std::span(&sample, 1)); }
 
     struct Dropped {
         std::uint64_t samples = 0;

@@ -6,12 +6,9 @@ namespace {
 // A shadow ray stops short of the light by this share, for lights that are geometry.
 constexpr float kShadowShare = 1.0f - 1e-4f;
 
-}  // namespace
-
-DirectSample sampleDirect(const World& world, const Vec3& from, float uPick, const Vec2& u) {
+DirectSample sampleLight(const World& world, const LightPicker::Pick& pick, const Vec3& from,
+                         const Vec2& u) {
     DirectSample result;
-    if (world.picker().empty()) return result;
-    const LightPicker::Pick pick = world.picker().pick(uPick);
     const Light& light = *world.lights()[pick.index];
     const LightSample sample = light.sample(from, u);
     if (!(sample.pdf > 0) || isZero(sample.radiance)) return result;
@@ -23,29 +20,81 @@ DirectSample sampleDirect(const World& world, const Vec3& from, float uPick, con
     return result;
 }
 
+// Calls visit(weighted radiance, distance from the ray's origin) for each light along a ray.
+template <typename Visit>
+void forEachSeen(const World& world, const Ray& ray, const ScatterOrigin& origin,
+                 const Visit& visit) {
+    const bool isSampled = std::isfinite(origin.pdf);
+    const Vec3 from = isSampled ? origin.sampledFrom : ray.origin;
+    const float behind = isSampled ? glm::dot(ray.origin - from, ray.direction) : 0.0f;
+    for (std::size_t k = 0; k < world.lights().size(); ++k) {
+        const Light& light = *world.lights()[k];
+        if (light.isDelta()) continue;
+        const Light::Seen seen = light.seen(from, ray.direction);
+        if (isZero(seen.radiance)) continue;
+        visit(seen.radiance * powerHeuristic(origin.pdf, seen.pdf * world.picker().pmf(k)),
+              seen.distance - behind);
+    }
+}
+
+}  // namespace
+
+DirectSample sampleDirect(const World& world, const Vec3& from, float uPick, const Vec2& u) {
+    if (world.picker().empty()) return {};
+    return sampleLight(world, world.picker().pick(uPick), from, u);
+}
+
+DirectSample sampleDirect(const World& world, const Vec3& from, const Vec3& normal,
+                          Sampler& sampler) {
+    const LightPicker& picker = world.picker();
+    if (picker.empty()) {
+        sampler.skip(2);
+        return {};
+    }
+    float uPick = 0;
+    if (picker.hasChoice())
+        uPick = sampler.next1D();
+    else
+        sampler.skip();
+    const LightPicker::Pick pick = picker.pick(uPick);
+    if (world.lights()[pick.index]->isBelow(from, normal)) {
+        sampler.skip();
+        return {};
+    }
+    return sampleLight(world, pick, from, sampler.next2D());
+}
+
+Ray shadowRay(const Vec3& from, const DirectSample& sample) {
+    return {from, sample.direction, 0.0f, sample.distance * kShadowShare};
+}
+
 bool isVisible(const World& world, const Vec3& from, const DirectSample& sample) {
-    Ray ray;
-    ray.origin = from;
-    ray.direction = sample.direction;
-    ray.tMax = sample.distance * kShadowShare;
-    return !world.rays().occluded(ray);
+    return !world.rays().occluded(shadowRay(from, sample));
 }
 
 Rgb radianceOfLights(const World& world, const Ray& ray, float distance,
                      const ScatterOrigin& origin) {
     Rgb sum(0);
-    const float behind = glm::dot(ray.origin - origin.sampledFrom, ray.direction);
-    for (std::size_t k = 0; k < world.lights().size(); ++k) {
-        const Light& light = *world.lights()[k];
-        if (light.isDelta()) continue;
-        const bool isSampled = std::isfinite(origin.pdf);
-        const Light::Seen seen =
-            light.seen(isSampled ? origin.sampledFrom : ray.origin, ray.direction);
-        const float seenDistance = seen.distance - (isSampled ? behind : 0.0f);
-        if (isZero(seen.radiance) || seenDistance > distance) continue;
-        sum += seen.radiance * powerHeuristic(origin.pdf, seen.pdf * world.picker().pmf(k));
-    }
+    forEachSeen(world, ray, origin, [&](const Rgb& radiance, float lightDistance) {
+        if (!(lightDistance > distance)) sum += radiance;
+    });
     return sum;
+}
+
+Rgb radianceOfOpenLights(const World& world, const Ray& ray, const ScatterOrigin& origin,
+                         std::uint64_t& rays) {
+    Rgb sum(0);
+    bool isNear = false;
+    forEachSeen(world, ray, origin, [&](const Rgb& radiance, float lightDistance) {
+        sum += radiance;
+        isNear = isNear || std::isfinite(lightDistance);
+    });
+    if (isZero(sum)) return sum;
+    ++rays;
+    if (!isNear) return world.rays().occluded(ray) ? Rgb(0) : sum;
+    Hit hit;
+    if (!world.rays().intersect(ray, hit)) return sum;
+    return radianceOfLights(world, ray, hit.t, origin);
 }
 
 Rgb radianceOfEmitter(const World& world, const Ray& ray, const SurfaceHit& hit,

@@ -19,7 +19,13 @@ struct DirectSample {
     bool isDelta = false;
 };
 DirectSample sampleDirect(const World& world, const Vec3& from, float uPick, const Vec2& u);
+/// The same from a surface of geometric normal `normal`, which light from below does not reach;
+/// takes two numbers of the sampler, but computes only those that it needs.
+DirectSample sampleDirect(const World& world, const Vec3& from, const Vec3& normal,
+                          Sampler& sampler);
 
+/// From a point (already off its surface) to just before the end of a DirectSample.
+Ray shadowRay(const Vec3& from, const DirectSample& sample);
 /// Whether nothing stands between a point (already off its surface) and the end of a DirectSample.
 bool isVisible(const World& world, const Vec3& from, const DirectSample& sample);
 
@@ -33,6 +39,10 @@ struct ScatterOrigin {
 /// each weighted against light sampling by the power heuristic.
 Rgb radianceOfLights(const World& world, const Ray& ray, float distance,
                      const ScatterOrigin& origin);
+/// The same of all lights along a ray that nothing stands before; `rays` counts what had to be
+/// traced to know, which is nothing where there is no light.
+Rgb radianceOfOpenLights(const World& world, const Ray& ray, const ScatterOrigin& origin,
+                         std::uint64_t& rays);
 /// The same for the emitting surface that a ray hit.
 Rgb radianceOfEmitter(const World& world, const Ray& ray, const SurfaceHit& hit,
                       const ScatterOrigin& origin);

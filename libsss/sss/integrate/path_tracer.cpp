@@ -1,8 +1,11 @@
 #include "sss/integrate/path_tracer.h"
 
+#include "sss/base/assert.h"
 #include "sss/integrate/single_scatter.h"
 
 #include <algorithm>
+#include <array>
+#include <optional>
 
 namespace sss {
 namespace {
@@ -14,6 +17,7 @@ constexpr int kRouletteDepth = 3;
 constexpr float kReflectionEffort = 8.0f, kLeastReflectionShare = 0.35f;
 // A direction drawn with less than this density (sr^-1) came from a diffuse or very rough lobe.
 constexpr float kWideLobe = 1.0f;
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 }  // namespace
 
@@ -35,21 +39,28 @@ Bsdf PathTracer::bsdfAt(const SurfaceHit& hit, const Vec3& wo) const {
                 fields_.empty() ? Bsdf::BodyShading::DiffuseLimit : Bsdf::BodyShading::Surface);
 }
 
-Rgb PathTracer::directLight(const SurfaceHit& hit, const Bsdf& bsdf, Sampler& sampler,
-                            PathCounts& counts) const {
-    const float uPick = sampler.next1D();
-    const Vec2 uLight = sampler.next2D();
-    if (!bsdf.hasSmoothPart()) return Rgb(0);
+PathTracer::OpenLight PathTracer::openLight(const SurfaceHit& hit, const Bsdf& bsdf,
+                                            Sampler& sampler) const {
+    if (!bsdf.hasSmoothPart()) {
+        sampler.skip(2);
+        return {};
+    }
     const Vec3 from = world_.leave(hit, bsdf.geometricNormal());
-    const DirectSample direct = sampleDirect(world_, from, uPick, uLight);
-    if (!(direct.pdf > 0)) return Rgb(0);
+    const DirectSample direct = sampleDirect(world_, from, bsdf.geometricNormal(), sampler);
+    if (!(direct.pdf > 0)) return {};
     const Rgb value = bsdf.evaluate(direct.direction);
-    if (isZero(value)) return Rgb(0);
-    ++counts.rays;
-    if (!isVisible(world_, from, direct)) return Rgb(0);
+    if (isZero(value)) return {};
     const float weight =
         direct.isDelta ? 1.0f : powerHeuristic(direct.pdf, bsdf.pdf(direct.direction));
-    return value * direct.radianceOverPdf * weight;
+    return {value * direct.radianceOverPdf * weight, shadowRay(from, direct)};
+}
+
+Rgb PathTracer::directLight(const SurfaceHit& hit, const Bsdf& bsdf, Sampler& sampler,
+                            PathCounts& counts) const {
+    const OpenLight light = openLight(hit, bsdf, sampler);
+    if (isZero(light.radiance)) return Rgb(0);
+    ++counts.rays;
+    return world_.rays().occluded(light.shadow) ? Rgb(0) : light.radiance;
 }
 
 Rgb PathTracer::diffusion(const SurfaceHit& hit, const Bsdf& bsdf, PathCounts& counts) const {
@@ -94,10 +105,12 @@ Rgb PathTracer::incoming(Ray ray, ScatterOrigin origin, int bounces, Sampler& sa
     Rgb sum(0), throughput(1);
     bool isWide = false;
     for (int depth = 0;; ++depth) {
+        if (depth >= bounces && !world_.hasEmitters())
+            return sum + throughput * radianceOfOpenLights(world_, ray, origin, counts.rays);
         Hit found;
         ++counts.rays;
         const bool isHit = world_.rays().intersect(ray, found);
-        const float distance = isHit ? found.t : std::numeric_limits<float>::infinity();
+        const float distance = isHit ? found.t : kInfinity;
         sum += throughput * radianceOfLights(world_, ray, distance, origin);
         if (!isHit) return sum;
         const SurfaceHit hit = world_.surfaceAt(found);
@@ -112,51 +125,83 @@ Rgb PathTracer::incoming(Ray ray, ScatterOrigin origin, int bounces, Sampler& sa
         sum +=
             throughput * (directLight(hit, bsdf, sampler, counts) + diffusion(hit, bsdf, counts));
         if (!scatter(hit, bsdf, sampler, ray, origin, throughput)) return sum;
-        const float uRoulette = sampler.next1D();
         if (depth + 1 >= kRouletteDepth) {
             const float survival = std::min(0.95f, maxComponent(throughput));
-            if (!(uRoulette < survival)) return sum;
+            if (!(sampler.next1D() < survival)) return sum;
             throughput /= survival;
+        } else {
+            sampler.skip();
         }
     }
 }
 
-FilmSample PathTracer::trace(const Ray& ray, Sampler& sampler, PathCounts& counts) const {
-    FilmSample sample;
-    ++counts.cameraSamples;
-    ++counts.rays;
-    Hit found;
-    const bool isHit = world_.rays().intersect(ray, found);
-    const float distance = isHit ? found.t : std::numeric_limits<float>::infinity();
-    sample.surface = radianceOfLights(world_, ray, distance, {});
-    if (!isHit) return sample;
-    const SurfaceHit hit = world_.surfaceAt(found);
-    const Vec3 wo = -ray.direction;
-    const Bsdf bsdf = bsdfAt(hit, wo);
+FilmSample PathTracer::shade(const FirstSurface& surface, const Ray& ray, Sampler& sampler,
+                             PathCounts& counts) const {
+    const SurfaceHit& hit = surface.hit;
+    const Bsdf& bsdf = surface.bsdf;
     const int bounces = world_.scene().quality.bounces;
-    sample.alpha = 1;
-    sample.depth = found.t * glm::dot(ray.direction, world_.camera().forward());
-    sample.normal = bsdf.shadingNormal();
-    sample.albedo = bsdf.albedo();
-    sample.surface += radianceOfEmitter(world_, ray, hit, {});
-    sample.surface += directLight(hit, bsdf, sampler, counts);
+    FilmSample seen;
+    seen.alpha = 1;
+    seen.depth = hit.distance * glm::dot(ray.direction, world_.camera().forward());
+    seen.normal = bsdf.shadingNormal();
+    seen.albedo = bsdf.albedo();
+    seen.surface = radianceOfLights(world_, ray, hit.distance, {}) +
+                   radianceOfEmitter(world_, ray, hit, {}) + surface.direct;
     if (hit.body >= 0 && !fields_.empty()) {
         const BodyOptics& optics = *optics_[static_cast<std::size_t>(hit.body)];
-        sample.diffusion = diffusion(hit, bsdf, counts) * optics.multipleScale;
+        seen.diffusion = diffusion(hit, bsdf, counts) * optics.multipleScale;
         if (optics.material.singleScattering && sampler.next1D() < optics.singleProbability)
-            sample.single =
-                single(hit, bsdf, wo, bounces, sampler, counts) / optics.singleProbability;
+            seen.single = single(hit, bsdf, -ray.direction, bounces, sampler, counts) /
+                          optics.singleProbability;
     }
     Ray next;
     ScatterOrigin origin;
     Rgb throughput(1);
-    if (!scatter(hit, bsdf, sampler, next, origin, throughput)) return sample;
+    if (!scatter(hit, bsdf, sampler, next, origin, throughput)) return seen;
     // A dielectric reflects 4 % of what it sees: not every sample needs to look.
     const float survival =
         std::clamp(kReflectionEffort * maxComponent(throughput), kLeastReflectionShare, 1.0f);
     if (sampler.next1D() < survival)
-        sample.surface += throughput / survival * incoming(next, origin, bounces, sampler, counts);
-    return sample;
+        seen.surface += throughput / survival * incoming(next, origin, bounces, sampler, counts);
+    return seen;
+}
+
+void PathTracer::trace(std::span<const Ray> rays, std::span<Sampler> samplers,
+                       std::span<FilmSample> seen, PathCounts& counts) const {
+    SSS_ASSERT_LE(rays.size(), kMostViews);
+    std::array<Hit, kMostViews> found;
+    world_.rays().intersectTogether(rays, found);
+    counts.cameraSamples += rays.size();
+    counts.rays += rays.size();
+
+    std::array<std::optional<FirstSurface>, kMostViews> surfaces;
+    std::array<Ray, kMostViews> shadows;
+    std::array<FirstSurface*, kMostViews> lit;  // by shadow ray
+    std::size_t shadowCount = 0;
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        if (found[i].geometry == kNoGeometry) continue;
+        const SurfaceHit hit = world_.surfaceAt(found[i]);
+        FirstSurface& surface =
+            surfaces[i].emplace(FirstSurface{hit, bsdfAt(hit, -rays[i].direction)});
+        const OpenLight light = openLight(hit, surface.bsdf, samplers[i]);
+        if (isZero(light.radiance)) continue;
+        surface.direct = light.radiance;
+        shadows[shadowCount] = light.shadow;
+        lit[shadowCount++] = &surface;
+    }
+    const std::uint64_t occluded =
+        world_.rays().occludedTogether(std::span(shadows).first(shadowCount));
+    counts.rays += shadowCount;
+    for (std::size_t k = 0; k < shadowCount; ++k)
+        if (occluded >> k & 1) lit[k]->direct = Rgb(0);
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        if (surfaces[i]) {
+            seen[i] = shade(*surfaces[i], rays[i], samplers[i], counts);
+        } else {
+            seen[i] = {};
+            seen[i].surface = radianceOfLights(world_, rays[i], kInfinity, {});
+        }
+    }
 }
 
 }  // namespace sss

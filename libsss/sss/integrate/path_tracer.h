@@ -31,9 +31,13 @@ public:
     PathTracer(const World& world, std::span<const std::unique_ptr<BodyOptics>> optics,
                std::span<const std::unique_ptr<BodyField>> fields);
 
-    /// The camera's view along a ray, by layer: what the first surface sends out from within by
-    /// multiple scattering, by single scattering, and everything else.
-    FilmSample trace(const Ray& ray, Sampler& sampler, PathCounts& counts) const;
+    /// The most rays that are traced together.
+    static constexpr std::size_t kMostViews = 16;
+    /// The camera's views along rays that lie close together, such as those of one pixel, each with
+    /// its numbers, by layer: what the first surface sends out from within by multiple scattering,
+    /// by single scattering, and everything else.
+    void trace(std::span<const Ray> rays, std::span<Sampler> samplers, std::span<FilmSample> seen,
+               PathCounts& counts) const;
 
     /// Radiance that arrives along a ray: lights (weighted by `origin`), and surfaces as long as
     /// `bounces` allows (0 = lights and emitters only).
@@ -44,8 +48,22 @@ private:
     Rgb diffusion(const SurfaceHit& hit, const Bsdf& bsdf, PathCounts& counts) const;
     Rgb single(const SurfaceHit& hit, const Bsdf& bsdf, const Vec3& wo, int bounces,
                Sampler& sampler, PathCounts& counts) const;
+    /// A light sample: what it brings if nothing stands on its ray.
+    struct OpenLight {
+        Rgb radiance{0.0f};
+        Ray shadow;
+    };
+    OpenLight openLight(const SurfaceHit& hit, const Bsdf& bsdf, Sampler& sampler) const;
     Rgb directLight(const SurfaceHit& hit, const Bsdf& bsdf, Sampler& sampler,
                     PathCounts& counts) const;
+    /// What the camera sees.
+    struct FirstSurface {
+        SurfaceHit hit;
+        Bsdf bsdf;
+        Rgb direct{0.0f};
+    };
+    FilmSample shade(const FirstSurface& surface, const Ray& ray, Sampler& sampler,
+                     PathCounts& counts) const;
     Bsdf bsdfAt(const SurfaceHit& hit, const Vec3& wo) const;
     /// Draws the next ray; false if the path ends.
     bool scatter(const SurfaceHit& hit, const Bsdf& bsdf, Sampler& sampler, Ray& ray,

@@ -1,8 +1,11 @@
 #include "sss/integrate/renderer.h"
 
 #include "sss/base/parallel.h"
+#include "sss/image/filter.h"
+#include "sss/integrate/foreground.h"
 
 #include <algorithm>
+#include <array>
 #include <mutex>
 
 namespace sss {
@@ -14,13 +17,80 @@ struct Tile {
     int x0, y0, x1, y1;
 };
 
+// Takes all samples of a pixel.
+class PixelSampler {
+public:
+    // Room for the samples that are taken together; one a thread.
+    struct Room {
+        std::array<Ray, PathTracer::kMostViews> rays;
+        std::array<Sampler, PathTracer::kMostViews> samplers;
+        std::array<FilmSample, PathTracer::kMostViews> seen;
+        PathCounts counts;
+    };
+    PixelSampler(const World& world, const PathTracer& tracer)
+        : settings_(world.scene().film),
+          camera_(world.camera()),
+          tracer_(tracer),
+          filter_(settings_.filter, settings_.filterRadiusPixels),
+          foreground_(world, static_cast<float>(filter_.radiusPixels())),
+          seed_(combineSeeds(world.scene().quality.seed, 0xca3e7aull)) {}
+
+    void sample(int x, int y, Film& film, Room& room) const {
+        auto& seen = room.seen;
+        const bool isForeground = foreground_.mayShow(x, y);
+        if (!isForeground) {
+            room.counts.cameraSamples += static_cast<std::uint64_t>(settings_.samples);
+            FilmSample background;
+            background.surface = foreground_.background();
+            seen.fill(background);
+        }
+        for (int first = 0; first < settings_.samples; first += static_cast<int>(seen.size())) {
+            const std::size_t count =
+                std::min(seen.size(), static_cast<std::size_t>(settings_.samples - first));
+            if (isForeground) look({x, y}, first, count, room);
+            film.add(x, y, std::span(seen).first(count));
+        }
+    }
+
+private:
+    struct Pixel {
+        int x, y;
+    };
+    // Takes `count` samples of a pixel from number `first` on.
+    void look(const Pixel& pixel, int first, std::size_t count, Room& room) const {
+        const std::uint64_t seed = combineSeeds(
+            seed_, static_cast<std::uint64_t>(pixel.y) << 32 | static_cast<std::uint64_t>(pixel.x));
+        const Vec2 centre(static_cast<float>(pixel.x) + 0.5f, static_cast<float>(pixel.y) + 0.5f);
+        for (std::size_t i = 0; i < count; ++i) {
+            Sampler& sampler = room.samplers[i];
+            sampler =
+                Sampler(seed, static_cast<std::uint32_t>(first) + static_cast<std::uint32_t>(i));
+            const Vec2 place = centre + filter_.sample(sampler.next2D());
+            Vec2 lens(0.5f);
+            if (camera_.hasLens())
+                lens = sampler.next2D();
+            else
+                sampler.skip();
+            room.rays[i] = camera_.ray(place, lens);
+        }
+        tracer_.trace(std::span(room.rays).first(count), room.samplers,
+                      std::span(room.seen).first(count), room.counts);
+    }
+
+    const FilmSettings& settings_;
+    const Camera& camera_;
+    const PathTracer& tracer_;
+    PixelFilter filter_;
+    Foreground foreground_;
+    std::uint64_t seed_;
+};
+
 }  // namespace
 
 RenderResult render(const World& world, std::span<const std::unique_ptr<BodyOptics>> optics,
                     std::span<const std::unique_ptr<BodyField>> fields, Reporter& reporter) {
     const FilmSettings& settings = world.scene().film;
     const PathTracer tracer(world, optics, fields);
-    const PixelFilter filter(settings.filter, settings.filterRadiusPixels);
     Film film(settings.width, settings.height, settings.layers);
     RenderResult result;
 
@@ -30,29 +100,18 @@ RenderResult render(const World& world, std::span<const std::unique_ptr<BodyOpti
             tiles.push_back(
                 {x, y, std::min(x + kTile, settings.width), std::min(y + kTile, settings.height)});
     Progress progress(reporter, "render", tiles.size());
-    const std::uint64_t seed = combineSeeds(world.scene().quality.seed, 0xca3e7aull);
+    const PixelSampler pixels(world, tracer);
     std::mutex mutex;
     parallelFor(tiles.size(), 1, [&](std::size_t begin, std::size_t end) {
-        PathCounts counts;
+        PixelSampler::Room room;
         for (std::size_t t = begin; t < end; ++t) {
             const Tile& tile = tiles[t];
             for (int y = tile.y0; y < tile.y1; ++y)
-                for (int x = tile.x0; x < tile.x1; ++x) {
-                    const std::uint64_t pixelSeed = combineSeeds(
-                        seed, static_cast<std::uint64_t>(y) << 32 | static_cast<std::uint64_t>(x));
-                    for (int s = 0; s < settings.samples; ++s) {
-                        Sampler sampler(pixelSeed, static_cast<std::uint32_t>(s));
-                        const Vec2 centre(static_cast<float>(x) + 0.5f,
-                                          static_cast<float>(y) + 0.5f);
-                        const Vec2 pixel = centre + filter.sample(sampler.next2D());
-                        const Ray ray = world.camera().ray(pixel, sampler.next2D());
-                        film.add(x, y, tracer.trace(ray, sampler, counts));
-                    }
-                }
+                for (int x = tile.x0; x < tile.x1; ++x) pixels.sample(x, y, film, room);
             progress.advance();
         }
         const std::scoped_lock lock(mutex);
-        result.counts.add(counts);
+        result.counts.add(room.counts);
     });
     result.image = film.develop();
     result.dropped = film.dropped();

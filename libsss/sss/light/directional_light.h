@@ -15,6 +15,9 @@ public:
     bool isDelta() const override { return true; }
     bool isInfinite() const override { return true; }
     Seen seen(const Vec3&, const Vec3&) const override { return {}; }
+    bool isBelow(const Vec3&, const Vec3& normal) const override {
+        return glm::dot(towardsLight_, normal) <= 0;
+    }
     float importance(const Bounds&) const override { return meanComponent(irradiance_); }
 
 private:

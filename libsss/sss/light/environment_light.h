@@ -13,6 +13,7 @@ public:
     LightSample sample(const Vec3& from, const Vec2& u) const override;
     bool isInfinite() const override { return true; }
     bool bestFoundByScattering() const override { return true; }
+    bool isUniform() const override { return true; }
     Seen seen(const Vec3& from, const Vec3& direction) const override;
     float importance(const Bounds&) const override { return kPiF * meanComponent(radiance_); }
 

@@ -27,6 +27,10 @@ public:
     virtual bool isDelta() const { return false; }
     /// Whether its light comes from infinitely far: what a ray that leaves the scene may see.
     virtual bool isInfinite() const { return false; }
+    /// Whether the radiance that arrives from infinity is the same from everywhere.
+    virtual bool isUniform() const { return false; }
+    /// What encloses a light that seen() finds at a finite distance; empty for others.
+    virtual Bounds visibleBounds() const { return {}; }
     /// Whether directions chosen for how the receiver scatters find it better than sample() does,
     /// as for light that comes evenly from everywhere; LightPicker then never picks it.
     virtual bool bestFoundByScattering() const { return false; }
@@ -41,6 +45,9 @@ public:
         float distance = 0;
     };
     virtual Seen seen(const Vec3& from, const Vec3& direction) const = 0;
+    /// Whether nothing of it lies above the plane through `point` with unit `normal`, so that a
+    /// surface there gets no light from it. False where that is not known.
+    virtual bool isBelow(const Vec3& /*point*/, const Vec3& /*normal*/) const { return false; }
     /// Flux that can reach a sphere around `target`, in relative terms: what a light is picked by.
     /// An estimate of the irradiance on a facing surface within, W m^-2, mean over the channels.
     virtual float importance(const Bounds& target) const = 0;

@@ -30,10 +30,13 @@ LightPicker::LightPicker(std::span<const std::unique_ptr<Light>> lights, const B
                          ? 0.0
                          : share + (total > 0 ? (1 - kEqualShare) * weights[k] / total : 0.0);
     choice_.emplace(weights);
+    hasChoice_ = pickable > 1;
+    while (weights[first_] == 0) ++first_;
 }
 
 LightPicker::Pick LightPicker::pick(float u) const {
     SSS_ASSERT_GE(size(), std::size_t{1});
+    if (!hasChoice_) return {first_, 1.0f, u};
     const PiecewiseConstant1D::Sample chosen = choice_->sample(u);
     return {chosen.cell, choice_->mass(chosen.cell), chosen.within};
 }

@@ -23,6 +23,8 @@ public:
     };
     /// Whether there is a light to pick.
     bool empty() const { return !choice_; }
+    /// Whether there are several to choose from: else pick() does not look at its number.
+    bool hasChoice() const { return hasChoice_; }
     /// Must not be empty().
     Pick pick(float u) const;
     /// Probability with which pick() chooses the light.
@@ -31,6 +33,8 @@ public:
 
 private:
     std::optional<PiecewiseConstant1D> choice_;
+    bool hasChoice_ = false;
+    std::size_t first_ = 0;  // the first that can be picked
 };
 
 }  // namespace sss

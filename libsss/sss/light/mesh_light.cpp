@@ -59,6 +59,12 @@ float MeshLight::pdfForHit(const Vec3& from, const Vec3& hitPoint, const Vec3& f
     return static_cast<float>(distance2 * std::sqrt(distance2) / (height * areaMm2()));
 }
 
+bool MeshLight::isBelow(const Vec3& point, const Vec3& normal) const {
+    // The corner of its box that lies highest.
+    const Vec3 half = 0.5f * bounds_.size();
+    return glm::dot(bounds_.centre() - point, normal) + glm::dot(half, glm::abs(normal)) <= 0;
+}
+
 float MeshLight::importance(const Bounds& target) const {
     // Every face may look anywhere: a quarter of the area is what a closed shape shows on average,
     // all of it what an open one shows at most.

@@ -24,6 +24,7 @@ RectangleLightSource::RectangleLightSource(const RectangleLight& settings, const
       halfHeight_(0.5 * settings.heightMm),
       radiance_(settings.radiance),
       twoSided_(settings.twoSided) {
+    reach2_ = static_cast<float>(halfWidth_ * halfWidth_ + halfHeight_ * halfHeight_);
     across_ = acrossOf(settings.up, normal_);
     up_ = glm::normalize(glm::cross(normal_, across_));
     across_ = glm::cross(up_, normal_);
@@ -62,6 +63,10 @@ LightSample RectangleLightSource::sample(const Vec3& from, const Vec2& u) const 
 }
 
 Light::Seen RectangleLightSource::seen(const Vec3& from, const Vec3& direction) const {
+    // Most rays pass well beside it; float is enough to say so, with room for its rounding.
+    const Vec3 toCentre = Vec3(centre_) - from;
+    const float along = glm::dot(toCentre, direction), far2 = glm::dot(toCentre, toCentre);
+    if (far2 - along * along > reach2_ + 1e-4f * far2) return {};
     const DVec3 centre = centreFrom(from);
     const DVec3 d(direction);
     const double distance = centre.z / glm::dot(d, normal_);
@@ -73,6 +78,22 @@ Light::Seen RectangleLightSource::seen(const Vec3& from, const Vec3& direction) 
     const double solidAngle = SphericalRectangle(view).solidAngle();
     return {radiance_, static_cast<float>(pdf(view, solidAngle, point)),
             static_cast<float>(distance)};
+}
+
+Bounds RectangleLightSource::visibleBounds() const {
+    const DVec3 half = halfWidth_ * glm::abs(across_) + halfHeight_ * glm::abs(up_);
+    Bounds box;
+    box.add(Vec3(centre_ - half));
+    box.add(Vec3(centre_ + half));
+    return box;
+}
+
+bool RectangleLightSource::isBelow(const Vec3& point, const Vec3& normal) const {
+    // The corner that lies highest.
+    const DVec3 n(normal);
+    return glm::dot(centre_ - DVec3(point), n) + halfWidth_ * std::abs(glm::dot(across_, n)) +
+               halfHeight_ * std::abs(glm::dot(up_, n)) <=
+           0;
 }
 
 float RectangleLightSource::importance(const Bounds& target) const {

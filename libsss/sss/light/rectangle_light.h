@@ -12,6 +12,8 @@ public:
     RectangleLightSource(const RectangleLight& settings, const DVec3& originMm);
     LightSample sample(const Vec3& from, const Vec2& u) const override;
     Seen seen(const Vec3& from, const Vec3& direction) const override;
+    Bounds visibleBounds() const override;
+    bool isBelow(const Vec3& point, const Vec3& normal) const override;
     float importance(const Bounds& target) const override;
 
 private:
@@ -27,6 +29,7 @@ private:
     DVec3 centre_;
     DVec3 across_, up_, normal_;
     double halfWidth_, halfHeight_;
+    float reach2_;  ///< squared distance from the centre to a corner
     Rgb radiance_;
     bool twoSided_;
 };

@@ -11,6 +11,15 @@ public:
     SphereLightSource(const SphereLight& settings, const DVec3& originMm);
     LightSample sample(const Vec3& from, const Vec2& u) const override;
     Seen seen(const Vec3& from, const Vec3& direction) const override;
+    Bounds visibleBounds() const override {
+        Bounds box;
+        box.add(Vec3(centre_ - radius_));
+        box.add(Vec3(centre_ + radius_));
+        return box;
+    }
+    bool isBelow(const Vec3& point, const Vec3& normal) const override {
+        return glm::dot(centre_ - DVec3(point), DVec3(normal)) <= -radius_;
+    }
     float importance(const Bounds& target) const override;
 
 private:

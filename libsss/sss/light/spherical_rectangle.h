@@ -23,8 +23,8 @@ public:
 private:
     RectangleView view_;
     double solidAngle_;
-    double offset_;   ///< k of the paper, less pi
-    double b0_, b1_;  ///< z components of the normals of the planes through y0 and y1
+    double cosOffset_, sinOffset_;  ///< of k of the paper, less pi
+    double b0_, b1_;                ///< z components of the normals of the planes through y0 and y1
 };
 
 }  // namespace sss

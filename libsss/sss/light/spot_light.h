@@ -12,6 +12,9 @@ public:
     LightSample sample(const Vec3& from, const Vec2& u) const override;
     bool isDelta() const override { return true; }
     Seen seen(const Vec3&, const Vec3&) const override { return {}; }
+    bool isBelow(const Vec3& point, const Vec3& normal) const override {
+        return glm::dot(position_ - DVec3(point), DVec3(normal)) <= 0;
+    }
     float importance(const Bounds& target) const override;
 
 private:

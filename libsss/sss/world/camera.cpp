@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace sss {
 namespace {
@@ -28,6 +29,7 @@ Camera::Camera(const CameraSettings& settings, int width, int height, const DVec
     : positionMm_(settings.position),
       position_(settings.position - originMm),
       tanHalfFov_(std::tan(settings.fovDegrees * kPi / 360.0)),
+      tanPerPixel_(tanHalfFov_ / (0.5 * height)),
       width_(width),
       height_(height),
       apertureRadius_(static_cast<float>(settings.apertureRadiusMm)),
@@ -42,20 +44,40 @@ Camera::Camera(const CameraSettings& settings, int width, int height, const DVec
 }
 
 Ray Camera::ray(const Vec2& pixel, const Vec2& lens) const {
-    const double halfHeight = 0.5 * height_;
-    const auto x = static_cast<float>((pixel.x - 0.5 * width_) / halfHeight * tanHalfFov_);
-    const auto y = static_cast<float>((halfHeight - pixel.y) / halfHeight * tanHalfFov_);
+    const auto scale = static_cast<float>(tanPerPixel_);
+    const float x = (pixel.x - 0.5f * static_cast<float>(width_)) * scale;
+    const float y = (0.5f * static_cast<float>(height_) - pixel.y) * scale;
     const Vec3 through = forward_ + right_ * x + up_ * y;
     Ray ray;
     ray.origin = position_;
     ray.direction = glm::normalize(through);
-    if (apertureRadius_ > 0) {
+    if (hasLens()) {
         const Vec2 offset = diskFromSquare(lens) * apertureRadius_;
         const Vec3 target = position_ + through * focusDistance_;
         ray.origin = position_ + right_ * offset.x + up_ * offset.y;
         ray.direction = glm::normalize(target - ray.origin);
     }
     return ray;
+}
+
+Camera::Window Camera::windowOf(const Bounds& box) const {
+    constexpr float kFar = std::numeric_limits<float>::max();
+    constexpr double kMargin = 0.01;  // pixels, for the rounding of ray()
+    if (box.isEmpty()) return {Vec2(kFar), Vec2(-kFar)};
+    DVec2 lo(std::numeric_limits<double>::max()), hi(-lo);
+    for (int corner = 0; corner < 8; ++corner) {
+        const DVec3 p(corner & 1 ? box.hi.x : box.lo.x, corner & 2 ? box.hi.y : box.lo.y,
+                      corner & 4 ? box.hi.z : box.lo.z);
+        const DVec3 offset = p - DVec3(position_);
+        const double depth = glm::dot(offset, DVec3(forward_));
+        if (hasLens() || !(depth > 1e-3 * glm::length(offset))) return {Vec2(-kFar), Vec2(kFar)};
+        const double scale = 1 / (depth * tanPerPixel_);
+        const DVec2 pixel(0.5 * width_ + glm::dot(offset, DVec3(right_)) * scale,
+                          0.5 * height_ - glm::dot(offset, DVec3(up_)) * scale);
+        lo = glm::min(lo, pixel);
+        hi = glm::max(hi, pixel);
+    }
+    return {Vec2(lo - kMargin), Vec2(hi + kMargin)};
 }
 
 std::array<double, 16> Camera::worldToCamera() const {

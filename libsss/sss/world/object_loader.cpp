@@ -80,6 +80,13 @@ void chooseNormals(TriangleMesh& mesh, NormalsMode mode) {
     }
 }
 
+// Whether repair would change something; a report that was not made says nothing.
+bool needsRepair(const MeshReport& report) {
+    return report.faces == 0 || report.degenerateFaces + report.duplicateFaces +
+                                        report.unreferencedVertices + report.flippedFaces >
+                                    0;
+}
+
 // Where a user finds the surface: the file, or else the object of the scene.
 std::string sourceOf(const ObjectSettings& object) {
     const auto* file = std::get_if<MeshFileShape>(&object.shape);
@@ -97,19 +104,21 @@ LoadedObject loadObject(const ObjectSettings& object, const Scene& scene, Report
     // Reported in the mesh's own unit, before repair: what the user has to mend.
     for (const std::string& sentence : describe(report, mmPerUnit))
         reporter.warn("mesh", object.name + ": " + sentence);
-    const RemovedParts removed = removeUnusable(loaded.mesh);
-    if (loaded.mesh.faces.empty())
-        throw Error(ErrorKind::BadInput, sourceOf(object),
-                    fmt::format("none of its {} faces has an area", facesRead),
-                    "check the mesh and its scale");
-    if (removed.degenerateFaces + removed.duplicateFaces > 0)
-        reporter.info(
-            "mesh", fmt::format("{}: removed {} faces without area and {} duplicates", object.name,
-                                removed.degenerateFaces, removed.duplicateFaces));
-    repairWinding(loaded.mesh);
+    if (needsRepair(report)) {
+        const RemovedParts removed = removeUnusable(loaded.mesh);
+        if (loaded.mesh.faces.empty())
+            throw Error(ErrorKind::BadInput, sourceOf(object),
+                        fmt::format("none of its {} faces has an area", facesRead),
+                        "check the mesh and its scale");
+        if (removed.degenerateFaces + removed.duplicateFaces > 0)
+            reporter.info(
+                "mesh", fmt::format("{}: removed {} faces without area and {} duplicates",
+                                    object.name, removed.degenerateFaces, removed.duplicateFaces));
+        repairWinding(loaded.mesh);
+        report = inspectMesh(loaded.mesh);
+    }
+    loaded.closed = report.closed;
     chooseNormals(loaded.mesh, object.normals);
-    const MeshReport after = inspectMesh(loaded.mesh);
-    loaded.closed = after.closed;
     loaded.worldFromObject = resolveTransform(object, loaded.mesh);
     return loaded;
 }

@@ -137,6 +137,7 @@ void World::makeLights() {
         auto light = std::make_unique<MeshLight>(
             std::move(triangles), MeshLight::Emission{emitter->radiance, emitter->twoSided});
         emitters_[k] = light.get();
+        hasEmitters_ = true;
         emitterIndices_[k] = lights_.size();
         lights_.push_back(std::move(light));
     }
@@ -157,8 +158,9 @@ void World::addGeometryTo(Hasher& hasher, std::size_t object) const {
 SurfaceHit World::surfaceAt(const Hit& hit) const {
     const Part& part = parts_[hit.geometry];
     SurfaceHit surface;
-    const UVec3 v = part.faces[hit.face];
-    surface.position = rays_->position(hit);
+    const RayScene::Place place = rays_->place(hit);
+    surface.position = place.position;
+    surface.step = place.step;
     surface.geometricNormal = hit.normal;
     surface.shadingNormal = hit.normal;
     surface.distance = hit.t;
@@ -169,6 +171,7 @@ SurfaceHit World::surfaceAt(const Hit& hit) const {
     surface.bodyFace = part.firstBodyFace + hit.face;
     surface.barycentrics = {hit.u, hit.v};
     if (!part.normals.empty()) {
+        const UVec3 v = part.faces[hit.face];
         const Vec3 n = part.normals[v.x] * (1.0f - hit.u - hit.v) + part.normals[v.y] * hit.u +
                        part.normals[v.z] * hit.v;
         const float length = glm::length(n);
@@ -192,15 +195,6 @@ SurfaceHit World::surfaceOf(int bodyIndex, FaceIndex bodyFace, const Vec2& baryc
     hit.normal =
         Vec3(body.worldFromBody.transformDirection(glm::normalize(body.mesh.faceCross(bodyFace))));
     return surfaceAt(hit);
-}
-
-Vec3 World::leave(const SurfaceHit& hit, const Vec3& normal) const {
-    Hit place;
-    place.geometry = static_cast<std::uint32_t>(hit.object);
-    place.face = hit.face;
-    place.u = hit.barycentrics.x;
-    place.v = hit.barycentrics.y;
-    return rays_->leave(place, normal);
 }
 
 }  // namespace sss

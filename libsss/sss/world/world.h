@@ -20,6 +20,7 @@ struct SurfaceHit {
     Vec3 position{};
     Vec3 geometricNormal{};  ///< unit, by the winding: outward on closed surfaces
     Vec3 shadingNormal{};    ///< unit, interpolated, on the same side as geometricNormal
+    float step = 0;          ///< mm off the face to where a ray that leaves it starts
     float distance = 0;      ///< along the ray, mm
     int object = -1;         ///< index into Scene::objects
     int material = -1;       ///< index into Scene::materials
@@ -56,6 +57,7 @@ public:
     const MeshLight* emitter(int object) const {
         return emitters_[static_cast<std::size_t>(object)];
     }
+    bool hasEmitters() const { return hasEmitters_; }
     /// Its index among lights().
     std::size_t emitterIndex(int object) const {
         return emitterIndices_[static_cast<std::size_t>(object)];
@@ -70,7 +72,9 @@ public:
     /// A place of a body's surface, given on Body::mesh, as if a ray had hit it.
     SurfaceHit surfaceOf(int body, FaceIndex bodyFace, const Vec2& barycentrics) const;
     /// Where a ray that leaves a surface on the side of `normal` starts.
-    Vec3 leave(const SurfaceHit& hit, const Vec3& normal) const;
+    static Vec3 leave(const SurfaceHit& hit, const Vec3& normal) {
+        return hit.position + normal * hit.step;
+    }
 
 private:
     struct Part {  // one geometry of the ray scene: one object
@@ -93,6 +97,7 @@ private:
     std::vector<std::unique_ptr<Light>> lights_;
     std::vector<const MeshLight*> emitters_;   // by object
     std::vector<std::size_t> emitterIndices_;  // by object
+    bool hasEmitters_ = false;
     std::optional<LightPicker> picker_;
     std::optional<Camera> camera_;
     Bounds bounds_;

@@ -79,5 +79,13 @@ TEST(CombineSeeds, DependsOnOrderAndSpreadsNeighbours) {
     EXPECT_NEAR(flipped / 10'000.0, 32.0, 0.25);  // avalanche; the mean of 10^4 has sd 0.04
 }
 
+TEST(ReverseBits, BitsChangePlaces) {
+    for (unsigned i = 0; i < 32; ++i)
+        EXPECT_EQ(reverseBits(std::uint32_t{1} << i), std::uint32_t{1} << (31 - i));
+    for (unsigned i = 0; i < 64; ++i)
+        EXPECT_EQ(reverseBits(std::uint64_t{1} << i), std::uint64_t{1} << (63 - i));
+    EXPECT_EQ(reverseBits(0x80000001u | 0x00ff0000u), 0x80000001u | 0x0000ff00u);
+}
+
 }  // namespace
 }  // namespace sss

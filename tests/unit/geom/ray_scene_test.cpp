@@ -252,5 +252,40 @@ TEST(RayScene, LeaveHoldsOnALargeTiltedPlaneThroughTheOrigin) {
     }
 }
 
+TEST(RayScene, RaysTogetherHitWhatTheyHitAlone) {
+    const FloatMesh sphere(makeSphere(10));
+    const RayScene scene = sceneOf(sphere);
+    Rng rng(5);
+    int hits = 0, occluded = 0;
+    for (int bundle = 0; bundle < 300; ++bundle) {
+        const std::size_t count = 1 + static_cast<std::size_t>(bundle % 21);
+        const Vec3 from = randomDirection(rng) * 40.0f, to = randomDirection(rng) * 11.0f;
+        std::vector<Ray> rays;
+        for (std::size_t i = 0; i < count; ++i) {
+            rays.push_back(towards(from, to + 0.5f * randomDirection(rng)));
+            if (i % 3 == 0) rays.back().tMax = 35;
+        }
+        std::vector<Hit> found(count);
+        scene.intersectTogether(rays, found);
+        const std::uint64_t blocked = scene.occludedTogether(rays);
+        EXPECT_EQ(blocked >> count, 0u);
+        for (std::size_t i = 0; i < count; ++i) {
+            Hit alone;
+            const bool isHit = scene.intersect(rays[i], alone);
+            ASSERT_EQ(found[i].geometry != kNoGeometry, isHit);
+            ASSERT_EQ((blocked >> i & 1) != 0, isHit);
+            occluded += isHit ? 0 : 1;
+            if (!isHit) continue;
+            ++hits;
+            ASSERT_NEAR(found[i].t, alone.t, 1e-4f);
+            ASSERT_NEAR(glm::distance(scene.position(found[i]), scene.position(alone)), 0, 1e-4f);
+            if (found[i].face != alone.face) continue;
+            ASSERT_EQ(found[i].normal, alone.normal);
+        }
+    }
+    EXPECT_GT(hits, 500);
+    EXPECT_GT(occluded, 500);
+}
+
 }  // namespace
 }  // namespace sss

@@ -1,6 +1,9 @@
 #include "sss/light/light_picker.h"
 
+#include "sss/base/rng.h"
+#include "sss/base/sampler.h"
 #include "sss/light/light_table.h"
+#include "sss/light/mesh_light.h"
 
 #include <gtest/gtest.h>
 
@@ -97,6 +100,62 @@ TEST(LightPicker, NoLightsAndDarkLights) {
     EXPECT_EQ(dark.pmf(0), 0);
     EXPECT_FLOAT_EQ(dark.pmf(1), 0.5f);
     EXPECT_FLOAT_EQ(dark.pmf(2), 0.5f);
+}
+
+TEST(LightPicker, OneLightNeedsNoNumber) {
+    std::vector<std::unique_ptr<Light>> lights;
+    lights.push_back(makeLight(EnvironmentLight{{9, 9, 9}, {}, 0}, {}));  // found by scattering
+    lights.push_back(makeLight(SphereLight{{0, 50, 0}, 5, {4, 4, 4}}, {}));
+    const LightPicker picker(lights, smallTarget());
+    EXPECT_FALSE(picker.hasChoice());
+    EXPECT_EQ(picker.pick(0.3f).index, 1u);
+    EXPECT_EQ(picker.pick(0.3f).pmf, 1.0f);
+    EXPECT_EQ(picker.pmf(1), 1.0f);
+    EXPECT_TRUE(LightPicker(someLights(), smallTarget()).hasChoice());
+}
+
+// Planes of all directions near and far: what a light sends never comes from below one that it is
+// said to lie below, and about half of the planes are found out.
+TEST(Light, BelowTheHorizonMeansNoLight) {
+    auto lights = someLights();
+    const MeshLight::Triangle triangle{Vec3(3, 4, 9), Vec3(5, 4, 9), Vec3(4, 6, 8)};
+    lights.push_back(
+        std::make_unique<MeshLight>(std::vector{triangle}, MeshLight::Emission{{}, true}));
+    Rng rng(8);
+    const auto direction = [&] {
+        const Vec3 d = Vec3(rng.uniform(), rng.uniform(), rng.uniform()) - 0.5f;
+        return glm::normalize(d);
+    };
+    for (std::size_t k = 0; k < lights.size(); ++k) {
+        int below = 0;
+        for (int i = 0; i < 400; ++i) {
+            const Vec3 from = direction() * (60.0f * rng.uniform()), normal = direction();
+            if (!lights[k]->isBelow(from, normal)) continue;
+            ++below;
+            for (std::uint32_t s = 0; s < 32; ++s) {
+                const LightSample sample = lights[k]->sample(from, Sampler(1, s).next2D());
+                if (!(sample.pdf > 0)) continue;
+                ASSERT_LT(glm::dot(sample.direction, normal), 1e-5f) << k;
+            }
+        }
+        EXPECT_GT(below, lights[k]->isUniform() ? -1 : 120) << k;
+    }
+}
+
+TEST(Light, IsSeenWithinItsBounds) {
+    for (const auto& light : someLights()) {
+        const Bounds box = light->visibleBounds();
+        if (light->isDelta() || light->isInfinite()) {
+            EXPECT_TRUE(box.isEmpty());
+            continue;
+        }
+        for (std::uint32_t s = 0; s < 200; ++s) {
+            const Vec3 from(1, -20, 3);
+            const LightSample sample = light->sample(from, Sampler(2, s).next2D());
+            EXPECT_LT(box.distanceSquared(from + sample.direction * sample.distance), 1e-6f);
+        }
+        EXPECT_LT(box.diagonal(), 20);
+    }
 }
 
 }  // namespace

@@ -124,5 +124,46 @@ TEST(Camera, WorldToCameraLooksAlongMinusZ) {
     expectClose(projected(m, settings().position), DVec3(0), 1e-12);
 }
 
+// A ray that meets the box goes through the window, and the window's sides touch the box.
+TEST(Camera, TheWindowOfABoxHoldsItsRays) {
+    const Camera camera(settings(), 300, 200, DVec3(0));
+    Bounds box;
+    box.add(Vec3(-5, -1, -14));
+    box.add(Vec3(-2, 3, -9));
+    const Camera::Window window = camera.windowOf(box);
+    Vec2 lo(1e9f), hi(-1e9f);
+    for (int y = 0; y < 200; ++y)
+        for (int x = 0; x < 300; ++x) {
+            const Vec2 pixel(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f);
+            const Ray ray = camera.ray(pixel, Vec2(0.5f));
+            const Vec3 a = (box.lo - ray.origin) / ray.direction;
+            const Vec3 b = (box.hi - ray.origin) / ray.direction;
+            const Vec3 in = glm::min(a, b), out = glm::max(a, b);
+            if (maxComponent(in) > std::min(out.x, std::min(out.y, out.z))) continue;
+            lo = glm::min(lo, pixel);
+            hi = glm::max(hi, pixel);
+        }
+    for (int c = 0; c < 2; ++c) {
+        EXPECT_LE(window.lo[c], lo[c]);
+        EXPECT_GE(window.hi[c], hi[c]);
+        EXPECT_NEAR(window.lo[c], lo[c], 2.0f);
+        EXPECT_NEAR(window.hi[c], hi[c], 2.0f);
+    }
+}
+
+TEST(Camera, TheWindowIsEverythingWhereItCannotBeSaid) {
+    Bounds around;
+    around.add(Vec3(0));
+    around.add(Vec3(10));
+    EXPECT_LT(Camera(settings(), 300, 200, DVec3(0)).windowOf(around).lo.x, -1e30f);
+    CameraSettings withLens = settings();
+    withLens.apertureRadiusMm = 1;
+    Bounds ahead;
+    ahead.add(Vec3(-7, 1, -20));
+    EXPECT_GT(Camera(withLens, 300, 200, DVec3(0)).windowOf(ahead).hi.y, 1e30f);
+    EXPECT_LT(Camera(settings(), 300, 200, DVec3(0)).windowOf(ahead).hi.y, 102);
+    EXPECT_GT(Camera(settings(), 300, 200, DVec3(0)).windowOf({}).lo.x, 1e30f);
+}
+
 }  // namespace
 }  // namespace sss

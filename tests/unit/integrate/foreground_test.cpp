@@ -1,0 +1,57 @@
+#include "sss/integrate/foreground.h"
+
+#include "sss/integrate/light_sampling.h"
+#include "unit/integrate/scene_maker.h"
+
+#include <gtest/gtest.h>
+
+namespace sss {
+namespace {
+
+using testing::SceneMaker;
+
+// A ball in the middle and a lamp in a corner of the picture, in even light.
+SceneMaker ballAndLamp() {
+    SceneMaker maker;
+    maker.object(SphereShape{10}, maker.material(LambertianMaterial{}));
+    maker.light(EnvironmentLight{Rgb(0.25f), {}, 0});
+    maker.light(RectangleLight{{20, 20, 0}, {20, 20, 10}, {0, 1, 0}, 4, 4, Rgb(5), false});
+    maker.scene.camera.position = {0, 0, 100};
+    maker.scene.camera.fovDegrees = 28;
+    maker.scene.film.width = maker.scene.film.height = 64;
+    return maker;
+}
+
+TEST(Foreground, LeavesOutOnlyPixelsOfEvenBackground) {
+    const SceneMaker maker = ballAndLamp();
+    const World world = maker.world();
+    const Foreground foreground(world, 0.5f);
+    EXPECT_EQ(foreground.background(), Rgb(0.25f));
+    int left = 0;
+    for (int y = 0; y < 64; ++y)
+        for (int x = 0; x < 64; ++x) {
+            if (foreground.mayShow(x, y)) continue;
+            ++left;
+            for (int s = 0; s < 9; ++s) {
+                const Vec2 within(static_cast<float>(s % 3) / 2, static_cast<float>(s / 3) / 2);
+                const Vec2 pixel = Vec2(static_cast<float>(x), static_cast<float>(y)) + within;
+                const Ray ray = world.camera().ray(pixel, Vec2(0.5f));
+                ASSERT_FALSE(world.rays().occluded(ray)) << x << ' ' << y;
+                const float infinity = std::numeric_limits<float>::infinity();
+                ASSERT_EQ(radianceOfLights(world, ray, infinity, {}), Rgb(0.25f)) << x << ' ' << y;
+            }
+        }
+    // The ball's box covers a fifth of the picture, the lamp's a hundredth.
+    EXPECT_GT(left, 64 * 64 * 3 / 4);
+    EXPECT_TRUE(foreground.mayShow(32, 32));
+}
+
+TEST(Foreground, IsEverywhereThroughALens) {
+    SceneMaker maker = ballAndLamp();
+    maker.scene.camera.apertureRadiusMm = 2;
+    const World world = maker.world();
+    EXPECT_TRUE(Foreground(world, 0.5f).mayShow(0, 63));
+}
+
+}  // namespace
+}  // namespace sss
