@@ -18,6 +18,9 @@ struct PathCounts {
     std::uint64_t rays = 0;  ///< of all kinds
     std::uint64_t diffusionLookups = 0;
     std::uint64_t singleSamples = 0;
+    std::uint64_t scatterings = 0;  ///< inside bodies, one by one (radiative transfer)
+    std::uint64_t leaks = 0;        ///< times a path met its body's surface where none should be
+    std::uint64_t lost = 0;         ///< paths that did not end
 
     void add(const PathCounts& other);
 };
@@ -40,12 +43,15 @@ public:
     Rgb incoming(Ray ray, ScatterOrigin origin, int bounces, Sampler& sampler,
                  PathCounts& counts) const;
 
+    /// Light that reaches a surface straight from a light and is scattered there, by light
+    /// sampling, weighted against sampling the BSDF.
+    Rgb directLight(const SurfaceHit& hit, const Bsdf& bsdf, Sampler& sampler,
+                    PathCounts& counts) const;
+
 private:
     Rgb diffusion(const SurfaceHit& hit, const Bsdf& bsdf, PathCounts& counts) const;
     Rgb single(const SurfaceHit& hit, const Bsdf& bsdf, const Vec3& wo, int bounces,
                Sampler& sampler, PathCounts& counts) const;
-    Rgb directLight(const SurfaceHit& hit, const Bsdf& bsdf, Sampler& sampler,
-                    PathCounts& counts) const;
     Bsdf bsdfAt(const SurfaceHit& hit, const Vec3& wo) const;
     /// Draws the next ray; false if the path ends.
     bool scatter(const SurfaceHit& hit, const Bsdf& bsdf, Sampler& sampler, Ray& ray,

@@ -1,6 +1,7 @@
 #include "sss/integrate/renderer.h"
 
 #include "sss/base/parallel.h"
+#include "sss/integrate/integrator_table.h"
 
 #include <algorithm>
 #include <mutex>
@@ -19,7 +20,7 @@ struct Tile {
 RenderResult render(const World& world, std::span<const std::unique_ptr<BodyOptics>> optics,
                     std::span<const std::unique_ptr<BodyField>> fields, Reporter& reporter) {
     const FilmSettings& settings = world.scene().film;
-    const PathTracer tracer(world, optics, fields);
+    const auto integrator = integratorOf(world.scene()).make({world, optics, fields});
     const PixelFilter filter(settings.filter, settings.filterRadiusPixels);
     Film film(settings.width, settings.height, settings.layers);
     RenderResult result;
@@ -46,7 +47,7 @@ RenderResult render(const World& world, std::span<const std::unique_ptr<BodyOpti
                                           static_cast<float>(y) + 0.5f);
                         const Vec2 pixel = centre + filter.sample(sampler.next2D());
                         const Ray ray = world.camera().ray(pixel, sampler.next2D());
-                        film.add(x, y, tracer.trace(ray, sampler, counts));
+                        film.add(x, y, integrator->trace(ray, sampler, counts));
                     }
                 }
             progress.advance();

@@ -22,6 +22,7 @@ constexpr Field<QualitySettings> kQualityFields[] = {
      [](QualitySettings& q, const Node& n) { q.irradianceSamples = wholeNumber(n, 1, 65536); }},
     {"bounces", [](QualitySettings& q, const Node& n) { q.bounces = wholeNumber(n, 0, 64); }},
     {"seed", [](QualitySettings& q, const Node& n) { q.seed = readSeed(n); }},
+    {"integrator", [](QualitySettings& q, const Node& n) { q.integrator = text(n); }},
 };
 
 }  // namespace

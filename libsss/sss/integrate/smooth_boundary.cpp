@@ -1,0 +1,43 @@
+#include "sss/integrate/smooth_boundary.h"
+
+#include "sss/optics/fresnel.h"
+
+namespace sss {
+namespace {
+
+// With `normal` against `along`; `face` is the geometric normal on that side.
+BoundaryEvent eventAt(const Vec3& normal, const Vec3& face, const Vec3& along, float eta, float u,
+                      bool fromInside) {
+    const float cosine = -glm::dot(normal, along);
+    const float reflectance =
+        fromInside ? fresnelReflectanceFromInside(cosine, eta) : fresnelReflectance(cosine, eta);
+    BoundaryEvent event;
+    event.isReflected = u < reflectance;
+    event.isInside = event.isReflected == fromInside;
+    event.side = event.isReflected ? face : -face;
+    if (event.isReflected) {
+        event.direction = along + 2.0f * cosine * normal;
+    } else {
+        const float beyond =
+            fromInside ? refractedCosineFromInside(cosine, eta) : refractedCosine(cosine, eta);
+        event.direction =
+            refractedDirection(along, normal, cosine, beyond, fromInside ? 1.0f / eta : eta);
+    }
+    event.direction = glm::normalize(event.direction);
+    return event;
+}
+
+}  // namespace
+
+BoundaryEvent sampleBoundary(const SurfaceHit& hit, const Vec3& along, float eta, float u) {
+    const bool fromInside = glm::dot(hit.geometricNormal, along) > 0;
+    const float sign = fromInside ? -1.0f : 1.0f;
+    const Vec3 face = hit.geometricNormal * sign, shading = hit.shadingNormal * sign;
+    if (glm::dot(shading, along) < 0) {
+        const BoundaryEvent event = eventAt(shading, face, along, eta, u, fromInside);
+        if (glm::dot(event.direction, event.side) > 0) return event;
+    }
+    return eventAt(face, face, along, eta, u, fromInside);
+}
+
+}  // namespace sss
