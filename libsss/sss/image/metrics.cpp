@@ -5,6 +5,7 @@
 #include <fmt/core.h>
 
 #include <cmath>
+#include <limits>
 #include <vector>
 
 namespace sss {
@@ -59,11 +60,26 @@ ImageDifference compareLayers(const ImageLayer& picture, const ImageLayer& refer
         }
     }
     const double count = static_cast<double>(result.pixels * channels.size());
-    if (count == 0 || squares == 0) return result;
-    const double mean = std::abs(referenceSum / count);
+    if (count == 0) return result;
+    result.referenceMean = referenceSum / count;
+    if (squares == 0) return result;
+    const double mean = std::abs(result.referenceMean);
     result.relativeRmse = std::sqrt(squares / count) / mean;
     result.bias = differences / count / mean;
     result.maximum = std::isnan(squares) ? squares : largest / mean;
+    return result;
+}
+
+MeanAndError meanOver(std::span<const ImageDifference> differences,
+                      double ImageDifference::*figure) {
+    const auto count = static_cast<double>(differences.size());
+    MeanAndError result;
+    for (const ImageDifference& d : differences) result.mean += d.*figure / count;
+    double squares = 0;
+    for (const ImageDifference& d : differences)
+        squares += (d.*figure - result.mean) * (d.*figure - result.mean);
+    result.error = differences.size() > 1 ? std::sqrt(squares / (count - 1) / count)
+                                          : std::numeric_limits<double>::quiet_NaN();
     return result;
 }
 
