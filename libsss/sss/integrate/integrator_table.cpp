@@ -36,11 +36,15 @@ const IntegratorKind* findIntegrator(std::string_view name) {
 }
 
 const IntegratorKind& integratorOf(const Scene& scene) {
-    const std::string& name = scene.quality.integrator;
+    const QualitySettings& quality = scene.quality;
+    const std::string& name = quality.integrator;
     if (const IntegratorKind* kind = findIntegrator(name)) return *kind;
     std::vector<std::string_view> names;
     for (const IntegratorKind& kind : kKinds) names.push_back(kind.name);
-    throw Error(ErrorKind::BadInput, scene.file.string(),
+    std::string where = scene.file.string();
+    if (quality.integratorLine > 0)
+        where += fmt::format(":{}:{}", quality.integratorLine, quality.integratorColumn);
+    throw Error(ErrorKind::BadInput, where,
                 fmt::format("there is no integrator called {}", inQuotes(name)),
                 nameHint(name, names));
 }
