@@ -1,12 +1,16 @@
 #include "sss/integrate/integrator_table.h"
 
 #include "sss/base/error.h"
+#include "sss/base/json.h"
 #include "sss/integrate/preprocess.h"
 #include "sss/integrate/renderer.h"
 #include "unit/integrate/batches.h"
 #include "unit/integrate/scene_maker.h"
 
 #include <gtest/gtest.h>
+
+#include <filesystem>
+#include <set>
 
 namespace sss {
 namespace {
@@ -28,6 +32,21 @@ TEST(IntegratorTable, Names) {
         EXPECT_EQ(e.kind(), ErrorKind::BadInput);
         EXPECT_NE(std::string(e.what()).find("did you mean \"volume\""), std::string::npos);
     }
+}
+
+TEST(IntegratorTable, IsTheSchemas) {
+    const JsonValue schema =
+        readJsonFile(std::filesystem::path(SSS_SOURCE_DIR) / "scenes/scene.schema.json");
+    const JsonValue* at = &schema;
+    for (const char* key : {"$defs", "quality", "properties", "integrator", "enum"}) {
+        const JsonMember* member = at->find(key);
+        ASSERT_NE(member, nullptr) << key;
+        at = &member->value;
+    }
+    std::set<std::string> inSchema, inTable;
+    for (const JsonValue& name : at->items()) inSchema.insert(name.asString());
+    for (const IntegratorKind& kind : integratorTable()) inTable.emplace(kind.name);
+    EXPECT_EQ(inTable, inSchema);
 }
 
 // Without absorption and under a sky of radiance 1 the diffuse limit and the gloss upon it make 1,

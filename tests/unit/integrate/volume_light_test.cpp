@@ -1,5 +1,6 @@
 #include "sss/base/error.h"
 #include "sss/integrate/single_scatter.h"
+#include "sss/optics/fresnel.h"
 #include "unit/integrate/volume_experiment.h"
 
 namespace sss {
@@ -73,6 +74,72 @@ TEST(VolumeLight, LightThroughMatchedBodies) {
     const Estimate e = estimate(
         64, [&](Sampler& sampler) { return DRgb(experiment.trace(downTo(1), sampler).surface); });
     expectWithin(e, DRgb(0.5 * 2 / kPi * std::exp(-2.0)), 0.01);
+}
+
+// A white body on a white floor: all that is seen is 1, however often it went to and fro.
+TEST(VolumeLight, WhiteFurnaceWithAFloor) {
+    for (const double eta : {1.0, 1.5}) {
+        SceneMaker maker;
+        maker.scene.quality.bounces = 64;
+        maker.object(BoxShape{DVec3(2)}, maker.material(grey(0, 2, eta)));
+        maker.object(RectangleShape{50, 50}, maker.material(LambertianMaterial{Rgb(1)}),
+                     moved({0, -1.01, 0}) * turned(-90, {1, 0, 0}));
+        maker.light(sky());
+        const Experiment experiment(maker);
+        const Estimate e = estimate(32, [&](Sampler& sampler) {
+            return all(experiment.trace(downTo(1, glm::normalize(Vec3(0.6f, 1, 0.3f))), sampler));
+        });
+        expectWithin(e, DRgb(1), 1e-3, 1e-3);
+    }
+}
+
+// A lamp in amber: seen by Fresnel, Beer and Lambert; its light is dimmed, not scattered.
+TEST(VolumeLight, EmitterInsideABody) {
+    for (const double eta : {1.0, 1.5}) {
+        TranslucentMaterial amber = grey(0, 0, eta);
+        amber.medium.sigmaA = {0.1, 0.3, 0.9};
+        SceneMaker maker;
+        maker.object(BoxShape{{40, 10, 40}}, maker.material(amber));
+        maker.object(RectangleShape{3, 3}, maker.material(EmitterMaterial{Rgb(7), false}),
+                     moved({0, 3, 0}) * turned(-90, {1, 0, 0}));
+        const Experiment experiment(maker);
+        DRgb expected;
+        for (int c = 0; c < 3; ++c)
+            expected[c] = 7 / (eta * eta) * (1 - fresnelReflectance(1.0, eta)) *
+                          std::exp(-2 * amber.medium.sigmaA[c]);
+        const Estimate e = estimate(512, [&](Sampler& sampler) {
+            return DRgb(experiment.trace(downTo(5), sampler).surface);
+        });
+        expectWithin(e, expected, 0.03);
+    }
+}
+
+// Without bodies it is the path tracer of the cached integrator.
+TEST(VolumeLight, OpaqueScenesAreThoseOfThePathTracer) {
+    MetalMaterial metal;
+    metal.roughness = 0.6;  // so wide that the path tracer leaves it as it is
+    SceneMaker maker;
+    maker.object(RectangleShape{20, 20}, maker.material(LambertianMaterial{{0.8f, 0.5f, 0.2f}}),
+                 turned(-90, {1, 0, 0}));
+    maker.object(BoxShape{DVec3(2)}, maker.material(metal), moved({1.5, 1.2, 0}));
+    RectangleLight lamp;
+    lamp.centre = {-4, 5, 2};
+    lamp.widthMm = lamp.heightMm = 2;
+    lamp.radiance = Rgb(5);
+    maker.light(lamp).light(PointLight{{0, 6, 3}, Rgb(2e-5f)}).light(sky(0.3f));
+    const Experiment experiment(maker);
+    const PathTracer tracer(experiment.world(), {}, {});
+    const Ray ray = downTo(0, glm::normalize(Vec3(-0.4f, 1, 0)));
+    PathCounts counts;
+    const Estimate traced = estimate(
+        512, [&](Sampler& sampler) { return DRgb(experiment.trace(ray, sampler).surface); });
+    const Estimate expected = estimate(
+        512, [&](Sampler& sampler) { return DRgb(tracer.trace(ray, sampler, counts).surface); });
+    for (int c = 0; c < 3; ++c) {
+        EXPECT_NEAR(traced.mean[c], expected.mean[c],
+                    3 * std::hypot(traced.error[c], expected.error[c]));
+        EXPECT_LT(traced.error[c], 0.02 * traced.mean[c]);
+    }
 }
 
 // What the layers say when a material leaves one of them out.
