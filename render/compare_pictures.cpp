@@ -5,12 +5,16 @@
 #include "sss/base/near_name.h"
 #include "sss/image/error_image.h"
 #include "sss/image/exr_file.h"
+#include "sss/image/flip.h"
 #include "sss/image/metrics.h"
 
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <string_view>
+#include <vector>
 
 namespace {
 
@@ -42,25 +46,42 @@ ImageLayer maskOf(const LayeredImage& image, const std::string& file, const std:
     return mask;
 }
 
+// One figure by picture.
 struct Figure {
     const char *name, *key;
-    double ImageDifference::*value;
+    std::vector<double> values;
 };
-constexpr Figure kFigures[] = {{"relative RMSE", "relativeRmse", &ImageDifference::relativeRmse},
-                               {"bias", "bias", &ImageDifference::bias},
-                               {"maximum", "maximum", &ImageDifference::maximum}};
+struct Comparison {
+    std::size_t pixels = 0;
+    double referenceMean = 0;
+    std::vector<Figure> figures;
+
+    void add(const char* name, const char* key, double value) {
+        const auto found = std::ranges::find(figures, std::string_view(key), &Figure::key);
+        if (found != figures.end())
+            found->values.push_back(value);
+        else
+            figures.push_back({name, key, {value}});
+    }
+};
+
+bool isColour(const ImageLayer& layer) {
+    constexpr std::array kNames{"R", "G", "B"};
+    return layer.channels.size() >= kNames.size() &&
+           std::equal(kNames.begin(), kNames.end(), layer.channels.begin());
+}
 
 // JSON has no numbers that are not finite.
 JsonValue jsonNumber(double value) { return std::isfinite(value) ? JsonValue(value) : JsonValue(); }
 
-void printJson(const std::vector<ImageDifference>& differences, const CompareRequest& request) {
+void printJson(const Comparison& comparison, const CompareRequest& request) {
     JsonValue out = JsonValue::object();
     out.set("layer", request.layer)
-        .set("pictures", differences.size())
-        .set("pixels", differences.front().pixels)
-        .set("referenceMean", jsonNumber(differences.front().referenceMean));
-    for (const Figure& figure : kFigures) {
-        const MeanAndError e = meanOver(differences, figure.value);
+        .set("pictures", request.files.size() - 1)
+        .set("pixels", comparison.pixels)
+        .set("referenceMean", jsonNumber(comparison.referenceMean));
+    for (const Figure& figure : comparison.figures) {
+        const MeanAndError e = meanOver(figure.values);
         JsonValue entry = JsonValue::object();
         entry.set("mean", jsonNumber(e.mean)).set("standardError", jsonNumber(e.error));
         out.set(figure.key, entry);
@@ -68,14 +89,14 @@ void printJson(const std::vector<ImageDifference>& differences, const CompareReq
     fmt::print("{}\n", dump(out));
 }
 
-void printText(const std::vector<ImageDifference>& differences, const CompareRequest& request) {
+void printText(const Comparison& comparison, const CompareRequest& request) {
     fmt::print("{}: {} pixels, mean of the reference {:.6g}\n",
-               request.layer.empty() ? "beauty" : request.layer, differences.front().pixels,
-               differences.front().referenceMean);
-    for (const Figure& figure : kFigures) {
-        const MeanAndError e = meanOver(differences, figure.value);
+               request.layer.empty() ? "beauty" : request.layer, comparison.pixels,
+               comparison.referenceMean);
+    for (const Figure& figure : comparison.figures) {
+        const MeanAndError e = meanOver(figure.values);
         fmt::print("{:<14}{:>12.6g}", figure.name, e.mean);
-        if (differences.size() > 1) fmt::print("  +- {:.2g}", e.error);
+        if (figure.values.size() > 1) fmt::print("  +- {:.2g}", e.error);
         fmt::print("\n");
     }
 }
@@ -90,7 +111,7 @@ void comparePictures(const CompareRequest& request) {
     if (!request.mask.empty()) mask = maskOf(reference, referenceFile, request.mask);
     const ImageLayer* masked = request.mask.empty() ? nullptr : &mask;
 
-    std::vector<ImageDifference> differences;
+    Comparison comparison;
     for (std::size_t k = 0; k + 1 < request.files.size(); ++k) {
         const std::string file = request.files[k].string();
         const LayeredImage image = readExr(file);
@@ -100,12 +121,19 @@ void comparePictures(const CompareRequest& request) {
                                     image.height, reference.width, reference.height),
                         "compare pictures of one size");
         const ImageLayer& layer = layerOf(image, file, request.layer);
-        differences.push_back(compareLayers(layer, expected, masked));
+        const ImageDifference difference = compareLayers(layer, expected, masked);
+        comparison.pixels = difference.pixels;
+        comparison.referenceMean = difference.referenceMean;
+        comparison.add("relative RMSE", "relativeRmse", difference.relativeRmse);
+        comparison.add("bias", "bias", difference.bias);
+        comparison.add("maximum", "maximum", difference.maximum);
+        if (isColour(layer))
+            comparison.add("FLIP", "flip", meanFlip(layer, expected, image.width, masked));
         if (k == 0 && !request.errorImage.empty())
             writePng(request.errorImage, errorImage(layer, expected, image.width, masked));
     }
     if (request.json)
-        printJson(differences, request);
+        printJson(comparison, request);
     else
-        printText(differences, request);
+        printText(comparison, request);
 }

@@ -52,8 +52,9 @@ Materials (these print to standard output and need no scene)
   --csv                   commas instead of columns
 
 Pictures compared (this prints to standard output and needs no scene)
-  --compare A B           how far the picture A is from the reference B, over B's mean: relative
-                          RMSE, bias, maximum; of several A, of other seeds, with errors
+  --compare A B           how far the picture A is from the reference B: relative RMSE, bias and
+                          maximum, over B's mean; mean FLIP as seen on a screen, 0 to 1; of
+                          several A, of other seeds, with standard errors
   --layer NAME            diffusion, single, surface, ... [the beauty]
   --mask NAME             only where this layer of B is above 0; A is its alpha [everywhere]
   --error-image OUT.png   |A - B| over B's mean in false colours, by decades: 0.001 black, 0.01

@@ -13,7 +13,7 @@ SMOOTH = {"stone": {"type": "translucent", "medium": "Marble"}}
 
 def figures(text):
     """{name: (mean, error or None)} of what --compare printed."""
-    rows = re.findall(r"^(relative RMSE|bias|maximum) +(\S+)(?: +\+- (\S+))?$", text, re.MULTILINE)
+    rows = re.findall(r"^(relative RMSE|bias|maximum|FLIP) +(\S+)(?: +\+- (\S+))?$", text, re.MULTILINE)
     return {name: (float(mean), float(error) if error else None) for name, mean, error in rows}
 
 
@@ -87,7 +87,7 @@ class Compare(CliTest):
         self.assertEqual(result.err, "")
         self.assertIn(f"beauty: {24 * 16} pixels", result.out)
         self.assertEqual(figures(result.out), {
-            "relative RMSE": (0, None), "bias": (0, None), "maximum": (0, None)})
+            "relative RMSE": (0, None), "bias": (0, None), "maximum": (0, None), "FLIP": (0, None)})
 
     def test_several_seeds(self):
         rows = [figures(self.compare(f"{name}.exr", "truth.exr").out) for name in "abc"]
@@ -100,6 +100,7 @@ class Compare(CliTest):
             self.assertAlmostEqual(error, spread, delta=0.06 * spread)
         self.assertGreater(together["relative RMSE"][0], abs(together["bias"][0]))
         self.assertGreater(together["maximum"][0], together["relative RMSE"][0])
+        self.assertTrue(0 < together["FLIP"][0] < 1)
 
     def test_json_says_the_same(self):
         arguments = ("a.exr", "b.exr", "truth.exr", "--layer", "diffusion", "--mask", "A")
@@ -108,8 +109,10 @@ class Compare(CliTest):
         self.assertEqual((data["layer"], data["pictures"]), ("diffusion", 2))
         self.assertIn(f"diffusion: {data['pixels']} pixels", text)
         self.assertLess(data["pixels"], 24 * 16)
-        for key, name in (("relativeRmse", "relative RMSE"), ("bias", "bias")):
+        for key, name in (("relativeRmse", "relative RMSE"), ("bias", "bias"), ("flip", "FLIP")):
             self.assertAlmostEqual(data[key]["mean"], figures(text)[name][0], places=4)
+        depth = json.loads(self.compare("a.exr", "truth.exr", "--layer", "Z", "--json").out)
+        self.assertNotIn("flip", depth)  # no colours
         alone = json.loads(self.compare("a.exr", "truth.exr", "--json").out)
         self.assertIsNone(alone["bias"]["standardError"])
 

@@ -70,16 +70,14 @@ ImageDifference compareLayers(const ImageLayer& picture, const ImageLayer& refer
     return result;
 }
 
-MeanAndError meanOver(std::span<const ImageDifference> differences,
-                      double ImageDifference::*figure) {
-    const auto count = static_cast<double>(differences.size());
+MeanAndError meanOver(std::span<const double> values) {
+    const auto count = static_cast<double>(values.size());
     MeanAndError result;
-    for (const ImageDifference& d : differences) result.mean += d.*figure / count;
+    for (const double v : values) result.mean += v / count;
     double squares = 0;
-    for (const ImageDifference& d : differences)
-        squares += (d.*figure - result.mean) * (d.*figure - result.mean);
-    result.error = differences.size() > 1 ? std::sqrt(squares / (count - 1) / count)
-                                          : std::numeric_limits<double>::quiet_NaN();
+    for (const double v : values) squares += (v - result.mean) * (v - result.mean);
+    result.error = values.size() > 1 ? std::sqrt(squares / (count - 1) / count)
+                                     : std::numeric_limits<double>::quiet_NaN();
     return result;
 }
 

@@ -26,9 +26,7 @@ ImageDifference compareLayers(const ImageLayer& picture, const ImageLayer& refer
 struct MeanAndError {
     double mean = 0, error = 0;
 };
-/// Of one figure over several pictures, e.g. meanOver(differences, &ImageDifference::bias). At
-/// least one.
-MeanAndError meanOver(std::span<const ImageDifference> differences,
-                      double ImageDifference::*figure);
+/// At least one value.
+MeanAndError meanOver(std::span<const double> values);
 
 }  // namespace sss
