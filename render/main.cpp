@@ -99,6 +99,27 @@ void recordRender(RunStats& stats, const Scene& scene, const RenderResult& resul
     stats.value("instructionSet", accumulateTarget());
 }
 
+// Share of the paths that may meet a surface where none should be, by rounding.
+constexpr double kUsualLeaks = 0.01;
+
+void warnOfFlaws(const RenderResult& result, Reporter& reporter) {
+    if (result.dropped.samples > 0)
+        reporter.warn(
+            "render",
+            fmt::format("{} camera samples were not finite and were left out, the first "
+                        "in pixel {}, {}",
+                        result.dropped.samples, result.dropped.firstX, result.dropped.firstY));
+    const PathCounts& counts = result.counts;
+    if (static_cast<double>(counts.leaks) > kUsualLeaks * static_cast<double>(counts.cameraSamples))
+        reporter.warn("render",
+                      fmt::format("{} times in {} paths, light inside a body met a face from "
+                                  "outside, or found no way out: the body's meshes cut each other "
+                                  "or have holes, and light goes astray there",
+                                  counts.leaks, counts.cameraSamples));
+    if (counts.lost > 0)
+        reporter.warn("render", fmt::format("{} paths did not end and were cut", counts.lost));
+}
+
 void writePictures(const RenderOptions& options, const Scene& scene, const LayeredImage& image,
                    Reporter& reporter) {
     writeExr(options.output, image, {scene.film.halfPrecision});
@@ -174,12 +195,7 @@ int run(int argc, const char* const* argv) {
                 world->bodies()[b], *optics[b], clouds.view(b), world->scene().quality.tolerance));
         result = render(*world, optics, fields, reporter);
     }
-    if (result.dropped.samples > 0)
-        reporter.warn(
-            "render",
-            fmt::format("{} camera samples were not finite and were left out, the "
-                        "first in pixel {}, {}",
-                        result.dropped.samples, result.dropped.firstX, result.dropped.firstY));
+    warnOfFlaws(result, reporter);
     addMetadata(result.image, *world, clouds, optics);
     {
         const auto timer = stats.seconds("write");

@@ -52,6 +52,16 @@ class Integrators(CliTest):
         self.assertEqual((self.folder / "1.exr").read_bytes(),
                          (self.folder / "2.exr").read_bytes())
 
+    def test_meshes_that_cut_each_other_are_told(self):
+        balls = [{"name": name, "shape": "sphere", "radius": 5, "material": "stone",
+                  "group": "twins", "transform": [{"translate": [x, 0, 0]}]}
+                 for name, x in (("left", -2), ("right", 2))]
+        for objects, warnings in ((balls, 1), (balls[:1], 0)):
+            scene = self.write_scene(materials=SMOOTH, objects=objects)
+            result = self.assert_ok(self.render(scene, "-o", "a.exr", "--integrator", "volume"))
+            told = [line for line in result.lines("WARN") if "cut each other" in line]
+            self.assertEqual(len(told), warnings, str(result))
+
     def test_refusals(self):
         rough = self.write_scene()
         volume = ("-o", "a.exr", "--integrator", "volume")

@@ -5,9 +5,15 @@
 namespace sss {
 namespace {
 
-// With `normal` against `along`; `face` is the geometric normal on that side.
-BoundaryEvent eventAt(const Vec3& normal, const Vec3& face, const Vec3& along, float eta, float u,
-                      bool fromInside) {
+struct Arrival {
+    Vec3 along;
+    Vec3 face;  // geometric normal against it
+    float eta;  // inside / outside
+    bool fromInside;
+};
+
+BoundaryEvent eventAt(const Arrival& arrival, const Vec3& normal, float u) {
+    const auto& [along, face, eta, fromInside] = arrival;
     const float cosine = -glm::dot(normal, along);
     const float reflectance =
         fromInside ? fresnelReflectanceFromInside(cosine, eta) : fresnelReflectance(cosine, eta);
@@ -32,12 +38,13 @@ BoundaryEvent eventAt(const Vec3& normal, const Vec3& face, const Vec3& along, f
 BoundaryEvent sampleBoundary(const SurfaceHit& hit, const Vec3& along, float eta, float u) {
     const bool fromInside = glm::dot(hit.geometricNormal, along) > 0;
     const float sign = fromInside ? -1.0f : 1.0f;
-    const Vec3 face = hit.geometricNormal * sign, shading = hit.shadingNormal * sign;
+    const Arrival arrival{along, hit.geometricNormal * sign, eta, fromInside};
+    const Vec3 shading = hit.shadingNormal * sign;
     if (glm::dot(shading, along) < 0) {
-        const BoundaryEvent event = eventAt(shading, face, along, eta, u, fromInside);
+        const BoundaryEvent event = eventAt(arrival, shading, u);
         if (glm::dot(event.direction, event.side) > 0) return event;
     }
-    return eventAt(face, face, along, eta, u, fromInside);
+    return eventAt(arrival, arrival.face, u);
 }
 
 }  // namespace sss

@@ -14,10 +14,16 @@ struct BodyMedium {
     float radius = 0;  ///< mm
 };
 
+/// A place in space, or in the medium of a body.
+struct MediumPlace {
+    Vec3 position{};
+    int body = -1;  ///< -1 in space
+};
+
 /// Share of the light of a DirectSample that reaches `from`, by channel: straight through bodies
 /// whose index is that of their surroundings, by Beer and Lambert; nothing past opaque surfaces and
-/// through bodies that refract. `body` is the one that `from` lies in, or -1; `rays` counts.
-Rgb transmittedShare(const World& world, std::span<const BodyMedium> media, const Vec3& from,
-                     const DirectSample& sample, int body, std::uint64_t& rays);
+/// through bodies that refract. `media` by body; counts into `rays`.
+Rgb transmittedShare(const World& world, std::span<const BodyMedium> media, const MediumPlace& from,
+                     const DirectSample& sample, std::uint64_t& rays);
 
 }  // namespace sss

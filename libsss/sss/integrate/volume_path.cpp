@@ -147,7 +147,7 @@ void VolumePath::lightScattered(const MediumCoefficients& medium) {
     const float uPick = sampler_.next1D();
     const DirectSample direct = sampleDirect(world_, start_, uPick, sampler_.next2D());
     if (!(direct.pdf > 0)) return;
-    const Rgb share = transmittedShare(world_, media_, start_, direct, body_, counts_.rays);
+    const Rgb share = transmittedShare(world_, media_, {start_, body_}, direct, counts_.rays);
     if (isZero(share)) return;
     const float cosTheta = glm::dot(ray_.direction, direct.direction);
     const float weight =
@@ -200,7 +200,7 @@ bool VolumePath::reflectOpaque(const SurfaceHit& hit) {
             const float weight =
                 direct.isDelta ? 1.0f : powerHeuristic(direct.pdf, bsdf.pdf(direct.direction));
             add(value * direct.radianceOverPdf * weight *
-                transmittedShare(world_, media_, from, direct, body_, counts_.rays));
+                transmittedShare(world_, media_, {from, body_}, direct, counts_.rays));
         }
     }
     const Bsdf::Sample next = bsdf.sample(uScatter);
