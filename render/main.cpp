@@ -7,11 +7,13 @@
 #include "sss/app/run_stats.h"
 #include "sss/app/terminal_reporter.h"
 #include "sss/base/atomic_file.h"
+#include "sss/base/error.h"
 #include "sss/base/parallel.h"
 #include "sss/image/exr_file.h"
 #include "sss/image/png_file.h"
 #include "sss/image/tone_map.h"
 #include "sss/integrate/cloud_cache.h"
+#include "sss/integrate/integrator_table.h"
 #include "sss/integrate/renderer.h"
 #include "sss/scene/boundary_override.h"
 #include "sss/scene/scene_reader.h"
@@ -24,6 +26,7 @@ using namespace sss;
 
 void applyOverrides(Scene& scene, const RenderOptions& options) {
     if (options.tolerance) scene.quality.tolerance = *options.tolerance;
+    if (options.integrator) scene.quality.integrator = *options.integrator;
     if (options.seed) scene.quality.seed = *options.seed;
     if (options.samples) scene.film.samples = *options.samples;
     if (options.width) scene.film.width = *options.width;
@@ -52,7 +55,10 @@ void addMetadata(LayeredImage& image, const World& world, const Clouds& clouds,
     meta["sss/seed"] = static_cast<double>(scene.quality.seed);
     meta["sss/metersPerUnit"] = scene.metersPerUnit;
     meta["sss/tolerance"] = scene.quality.tolerance;
-    meta["sss/cacheHash"] = clouds.cache ? clouds.cache->fingerprint() : std::string("in memory");
+    meta["sss/cacheHash"] = clouds.cache
+                                ? clouds.cache->fingerprint()
+                                : std::string(clouds.made.clouds.empty() ? "none" : "in memory");
+    meta["sss/integrator"] = scene.quality.integrator;
     meta["colorInteropID"] = std::string("lin_rec709_scene");
     std::string paths;
     for (std::size_t b = 0; b < optics.size(); ++b) {
@@ -65,12 +71,16 @@ void addMetadata(LayeredImage& image, const World& world, const Clouds& clouds,
     meta["worldToNDC"] = world.camera().worldToNdc();
 }
 
-void recordRender(RunStats& stats, const RenderResult& result,
+void recordRender(RunStats& stats, const Scene& scene, const RenderResult& result,
                   std::span<const std::unique_ptr<BodyField>> fields) {
     stats.count("cameraSamples", result.counts.cameraSamples);
     stats.count("rays", result.counts.rays);
     stats.count("diffusionEvaluations", result.counts.diffusionLookups);
     stats.count("singleScatteringSamples", result.counts.singleSamples);
+    stats.count("scatterings", result.counts.scatterings);
+    stats.count("leaks", result.counts.leaks);
+    stats.count("lostPaths", result.counts.lost);
+    stats.value("integrator", scene.quality.integrator);
     stats.count("nan", result.dropped.samples);
     ExitanceCounts total;
     for (const auto& field : fields) {
@@ -87,6 +97,27 @@ void recordRender(RunStats& stats, const RenderResult& result,
     stats.count("nodeInteractions", total.sums.nodeInteractions);
     stats.count("pointInteractions", total.sums.pointInteractions);
     stats.value("instructionSet", accumulateTarget());
+}
+
+// Share of the paths that may meet a surface where none should be, by rounding.
+constexpr double kUsualLeaks = 0.01;
+
+void warnOfFlaws(const RenderResult& result, Reporter& reporter) {
+    if (result.dropped.samples > 0)
+        reporter.warn(
+            "render",
+            fmt::format("{} camera samples were not finite and were left out, the first "
+                        "in pixel {}, {}",
+                        result.dropped.samples, result.dropped.firstX, result.dropped.firstY));
+    const PathCounts& counts = result.counts;
+    if (static_cast<double>(counts.leaks) > kUsualLeaks * static_cast<double>(counts.cameraSamples))
+        reporter.warn("render",
+                      fmt::format("{} times in {} paths, light inside a body met a face from "
+                                  "outside, or found no way out: the body's meshes cut each other "
+                                  "or have holes, and light goes astray there",
+                                  counts.leaks, counts.cameraSamples));
+    if (counts.lost > 0)
+        reporter.warn("render", fmt::format("{} paths did not end and were cut", counts.lost));
 }
 
 void writePictures(const RenderOptions& options, const Scene& scene, const LayeredImage& image,
@@ -114,7 +145,11 @@ int run(int argc, const char* const* argv) {
     const auto options = readOptions(argc, argv);
     if (!options) return 0;
     if (options->listMaterials) {
-        listMaterials(options->json);
+        listMaterials(options->compare.json);
+        return 0;
+    }
+    if (!options->compare.files.empty()) {
+        comparePictures(options->compare);
         return 0;
     }
     if (!options->profile.material.empty()) {
@@ -136,8 +171,16 @@ int run(int argc, const char* const* argv) {
         world.emplace(scene, reporter);
     }
     const auto optics = makeBodyOptics(*world);
+    const bool needsFields = integratorOf(world->scene()).needsFields;
+    if (!needsFields && !options->cache.empty())
+        throw Error(
+            ErrorKind::Usage, "--cache",
+            fmt::format("the integrator \"{}\" uses none", world->scene().quality.integrator),
+            "leave it out");
     Clouds clouds;
-    if (!options->cache.empty()) {
+    if (!needsFields) {
+        // Nothing is summed.
+    } else if (!options->cache.empty()) {
         const auto timer = stats.seconds("cache");
         clouds.cache.emplace(options->cache, *world, optics);
     } else {
@@ -147,23 +190,18 @@ int run(int argc, const char* const* argv) {
     RenderResult result;
     {
         const auto timer = stats.seconds("render");
-        for (std::size_t b = 0; b < world->bodies().size(); ++b)
+        for (std::size_t b = 0; needsFields && b < world->bodies().size(); ++b)
             fields.push_back(std::make_unique<BodyField>(
                 world->bodies()[b], *optics[b], clouds.view(b), world->scene().quality.tolerance));
         result = render(*world, optics, fields, reporter);
     }
-    if (result.dropped.samples > 0)
-        reporter.warn(
-            "render",
-            fmt::format("{} camera samples were not finite and were left out, the "
-                        "first in pixel {}, {}",
-                        result.dropped.samples, result.dropped.firstX, result.dropped.firstY));
+    warnOfFlaws(result, reporter);
     addMetadata(result.image, *world, clouds, optics);
     {
         const auto timer = stats.seconds("write");
         writePictures(*options, world->scene(), result.image, reporter);
     }
-    recordRender(stats, result, fields);
+    recordRender(stats, world->scene(), result, fields);
     stats.value("threads", ThreadLimit::current());
     if (!options->stats.empty()) stats.writeStats(options->stats);
     if (options->strict) reporter.requireNoWarnings();

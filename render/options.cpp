@@ -1,6 +1,8 @@
 #include "options.h"
 
 #include "sss/base/error.h"
+#include "sss/base/near_name.h"
+#include "sss/integrate/integrator_table.h"
 #include "sss/scene/boundary_override.h"
 
 #include <CLI/CLI.hpp>
@@ -17,6 +19,7 @@ constexpr const char* kHelp = R"(sss-render {} - path-trace a scene with translu
 usage: sss-render [options] SCENE -o OUT.exr
        sss-render --list-materials [--json]
        sss-render --profile MATERIAL [--model NAME] [--csv] [--radii R1,R2,...]
+       sss-render --compare A.exr [A2.exr ...] REFERENCE.exr [--json]
 
 Input
   SCENE                   scene file (JSON, see scenes/README.md)
@@ -24,6 +27,9 @@ Input
   --meters-per-unit M     length of a scene unit [the scene's metersPerUnit; m]
 
 Quality
+  --integrator NAME       cached: diffusion by the point cloud; brdf: diffusion without spread,
+                          no cache; volume: radiative transfer, slow, the ground truth
+                          [the scene's, or cached]
   --samples N             per pixel [the scene's, or 64]
   --size WxH              of the picture [the scene's, or 512x512; pixels]
   --tolerance T           relative error of diffusion [the scene's, or 0.01]
@@ -45,6 +51,16 @@ Materials (these print to standard output and need no scene)
   --thickness MM          of the slab, for the multipole models [the scene's; mm]
   --csv                   commas instead of columns
 
+Pictures compared (this prints to standard output and needs no scene)
+  --compare A B           how far the picture A is from the reference B: relative RMSE, bias and
+                          maximum, over B's mean; mean FLIP as seen on a screen, 0 to 1; of
+                          several A, of other seeds, with standard errors
+  --layer NAME            diffusion, single, surface, ... [the beauty]
+  --mask NAME             only where this layer of B is above 0; A is its alpha [everywhere]
+  --error-image OUT.png   |A - B| over B's mean in false colours, by decades: 0.001 black, 0.01
+                          purple, 0.1 orange, 1 pale yellow
+  --json                  figures as JSON
+
 Output
   -o, --output OUT.exr    layered OpenEXR; a tone-mapped OUT.png is written beside it
   --no-png                ... or not
@@ -61,6 +77,7 @@ Examples
   sss-render scenes/bunny/demo.json --cache bunny.ssc -o bunny.exr --stats bunny.json
   sss-render scenes/still-life/still-life.json -o small.exr --size 256x256 --samples 16
   sss-render --profile Marble --model better_dipole --csv > marble.csv
+  sss-render --compare bunny.exr truth.exr --layer diffusion --mask A --error-image error.png
   sss-render --profile sigma_a=0.002/0.004/0.007,sigma_s_prime=2.6,eta=1.5 --radii 0,0.1,1
 
 Exit codes: 0 done, 1 internal error, 2 usage, 3 bad input, 4 could not read or write,
@@ -103,7 +120,8 @@ std::vector<double> readRadii(const std::string& text) {
 // The options that print about materials, which take no scene.
 void checkMaterials(const RenderOptions& o, bool radiiGiven) {
     const bool profile = !o.profile.material.empty();
-    if (o.json && !o.listMaterials) usage("--json", "belongs to --list-materials");
+    if (o.compare.json && !o.listMaterials && o.compare.files.empty())
+        usage("--json", "belongs to --list-materials and --compare");
     if (!profile) {
         if (!o.profile.model.empty()) usage("--model", "belongs to --profile");
         if (o.profile.csv) usage("--csv", "belongs to --profile");
@@ -121,7 +139,34 @@ void checkMaterials(const RenderOptions& o, bool radiiGiven) {
         usage("--meters-per-unit", fmt::format("{} is not a positive length", *o.metersPerUnit));
 }
 
+void checkCompare(const RenderOptions& o) {
+    const CompareRequest& compare = o.compare;
+    if (compare.files.empty()) {
+        if (!compare.layer.empty()) usage("--layer", "belongs to --compare");
+        if (!compare.mask.empty()) usage("--mask", "belongs to --compare");
+        if (!compare.errorImage.empty()) usage("--error-image", "belongs to --compare");
+        return;
+    }
+    if (compare.files.size() < 2) usage("--compare", "needs a picture and a reference");
+    if (o.listMaterials || !o.profile.material.empty())
+        usage("--compare", "and what prints about materials do not go together");
+    if (!o.scene.empty())
+        usage("SCENE", fmt::format("{} is not needed with --compare", o.scene.string()));
+    if (!compare.errorImage.empty() && compare.errorImage.extension() != ".png")
+        usage("--error-image", fmt::format("{} does not end in .png", compare.errorImage.string()));
+}
+
+void checkIntegrator(const std::string& name) {
+    if (sss::findIntegrator(name)) return;
+    std::vector<std::string_view> names;
+    for (const sss::IntegratorKind& kind : sss::integratorTable()) names.push_back(kind.name);
+    throw sss::Error(sss::ErrorKind::Usage, "--integrator",
+                     fmt::format("there is no integrator called {}", sss::inQuotes(name)),
+                     sss::nameHint(name, names));
+}
+
 void check(const RenderOptions& o) {
+    if (o.integrator) checkIntegrator(*o.integrator);
     if (o.scene.empty()) usage("SCENE", "no scene file given");
     if (o.output.empty()) usage("--output", "no picture given (-o OUT.exr)");
     if (o.output.extension() != ".exr")
@@ -157,7 +202,12 @@ std::optional<RenderOptions> readOptions(int argc, const char* const* argv) {
     app.add_option("--threads", o.threads)->check(CLI::NonNegativeNumber);
     app.add_option("--boundary", boundary);
     app.add_flag("--list-materials", o.listMaterials);
-    app.add_flag("--json", o.json);
+    app.add_flag("--json", o.compare.json);
+    app.add_option("--compare", o.compare.files)->expected(1, 1000);
+    app.add_option("--layer", o.compare.layer);
+    app.add_option("--mask", o.compare.mask);
+    app.add_option("--error-image", o.compare.errorImage);
+    app.add_option("--integrator", o.integrator);
     app.add_option("--profile", o.profile.material);
     app.add_option("--model", o.profile.model);
     const auto* radiiOption = app.add_option("--radii", radii);
@@ -182,6 +232,7 @@ std::optional<RenderOptions> readOptions(int argc, const char* const* argv) {
     if (!boundary.empty()) o.profile.boundary = sss::boundaryModel(boundary, "--boundary");
     if (!radii.empty()) o.profile.radiiMm = readRadii(radii);
     checkMaterials(o, radiiOption->count() > 0);
-    if (o.profile.material.empty() && !o.listMaterials) check(o);
+    checkCompare(o);
+    if (o.profile.material.empty() && !o.listMaterials && o.compare.files.empty()) check(o);
     return o;
 }

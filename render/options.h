@@ -1,4 +1,5 @@
 #pragma once
+#include "compare_pictures.h"
 #include "material_argument.h"
 
 #include <cstdint>
@@ -17,10 +18,11 @@ struct RenderOptions {
     std::optional<double> metersPerUnit;
     std::optional<std::uint64_t> seed;
     std::uint64_t maxPoints = 20'000'000;
-    unsigned threads = 0;    ///< 0 = all cores
+    unsigned threads = 0;  ///< 0 = all cores
+    std::optional<std::string> integrator;
+    CompareRequest compare;
     ProfileRequest profile;  ///< its boundary holds for the scene's materials, too
     bool listMaterials = false;
-    bool json = false;
     bool noPng = false;
     bool quiet = false;
     bool strict = false;

@@ -5,6 +5,7 @@
 #include <fmt/core.h>
 
 #include <cmath>
+#include <limits>
 #include <vector>
 
 namespace sss {
@@ -59,11 +60,24 @@ ImageDifference compareLayers(const ImageLayer& picture, const ImageLayer& refer
         }
     }
     const double count = static_cast<double>(result.pixels * channels.size());
-    if (count == 0 || squares == 0) return result;
-    const double mean = std::abs(referenceSum / count);
+    if (count == 0) return result;
+    result.referenceMean = referenceSum / count;
+    if (squares == 0) return result;
+    const double mean = std::abs(result.referenceMean);
     result.relativeRmse = std::sqrt(squares / count) / mean;
     result.bias = differences / count / mean;
     result.maximum = std::isnan(squares) ? squares : largest / mean;
+    return result;
+}
+
+MeanAndError meanOver(std::span<const double> values) {
+    const auto count = static_cast<double>(values.size());
+    MeanAndError result;
+    for (const double v : values) result.mean += v / count;
+    double squares = 0;
+    for (const double v : values) squares += (v - result.mean) * (v - result.mean);
+    result.error = values.size() > 1 ? std::sqrt(squares / (count - 1) / count)
+                                     : std::numeric_limits<double>::quiet_NaN();
     return result;
 }
 

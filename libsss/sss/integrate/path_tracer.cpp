@@ -26,6 +26,9 @@ void PathCounts::add(const PathCounts& other) {
     rays += other.rays;
     diffusionLookups += other.diffusionLookups;
     singleSamples += other.singleSamples;
+    scatterings += other.scatterings;
+    leaks += other.leaks;
+    lost += other.lost;
 }
 
 PathTracer::PathTracer(const World& world, std::span<const std::unique_ptr<BodyOptics>> optics,

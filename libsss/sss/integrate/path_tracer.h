@@ -18,6 +18,9 @@ struct PathCounts {
     std::uint64_t rays = 0;  ///< of all kinds
     std::uint64_t diffusionLookups = 0;
     std::uint64_t singleSamples = 0;
+    std::uint64_t scatterings = 0;  ///< inside bodies, one by one (radiative transfer)
+    std::uint64_t leaks = 0;        ///< times a path met its body's surface where none should be
+    std::uint64_t lost = 0;         ///< paths that did not end
 
     void add(const PathCounts& other);
 };
@@ -39,10 +42,22 @@ public:
     void trace(std::span<const Ray> rays, std::span<Sampler> samplers, std::span<FilmSample> seen,
                PathCounts& counts) const;
 
+    /// The view along one ray.
+    FilmSample trace(const Ray& ray, Sampler& sampler, PathCounts& counts) const {
+        FilmSample seen;
+        trace(std::span(&ray, 1), std::span(&sampler, 1), std::span(&seen, 1), counts);
+        return seen;
+    }
+
     /// Radiance that arrives along a ray: lights (weighted by `origin`), and surfaces as long as
     /// `bounces` allows (0 = lights and emitters only).
     Rgb incoming(Ray ray, ScatterOrigin origin, int bounces, Sampler& sampler,
                  PathCounts& counts) const;
+
+    /// Light that reaches a surface straight from a light and is scattered there, by light
+    /// sampling, weighted against sampling the BSDF.
+    Rgb directLight(const SurfaceHit& hit, const Bsdf& bsdf, Sampler& sampler,
+                    PathCounts& counts) const;
 
 private:
     Rgb diffusion(const SurfaceHit& hit, const Bsdf& bsdf, PathCounts& counts) const;
@@ -54,8 +69,6 @@ private:
         Ray shadow;
     };
     OpenLight openLight(const SurfaceHit& hit, const Bsdf& bsdf, Sampler& sampler) const;
-    Rgb directLight(const SurfaceHit& hit, const Bsdf& bsdf, Sampler& sampler,
-                    PathCounts& counts) const;
     /// What the camera sees.
     struct FirstSurface {
         SurfaceHit hit;

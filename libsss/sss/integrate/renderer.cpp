@@ -3,6 +3,7 @@
 #include "sss/base/parallel.h"
 #include "sss/image/filter.h"
 #include "sss/integrate/foreground.h"
+#include "sss/integrate/integrator_table.h"
 
 #include <algorithm>
 #include <array>
@@ -22,15 +23,15 @@ class PixelSampler {
 public:
     // Room for the samples that are taken together; one a thread.
     struct Room {
-        std::array<Ray, PathTracer::kMostViews> rays;
-        std::array<Sampler, PathTracer::kMostViews> samplers;
-        std::array<FilmSample, PathTracer::kMostViews> seen;
+        std::array<Ray, Integrator::kMostViews> rays;
+        std::array<Sampler, Integrator::kMostViews> samplers;
+        std::array<FilmSample, Integrator::kMostViews> seen;
         PathCounts counts;
     };
-    PixelSampler(const World& world, const PathTracer& tracer)
+    PixelSampler(const World& world, const Integrator& integrator)
         : settings_(world.scene().film),
           camera_(world.camera()),
-          tracer_(tracer),
+          integrator_(integrator),
           filter_(settings_.filter, settings_.filterRadiusPixels),
           foreground_(world, static_cast<float>(filter_.radiusPixels())),
           seed_(combineSeeds(world.scene().quality.seed, 0xca3e7aull)) {}
@@ -73,13 +74,13 @@ private:
                 sampler.skip();
             room.rays[i] = camera_.ray(place, lens);
         }
-        tracer_.trace(std::span(room.rays).first(count), room.samplers,
-                      std::span(room.seen).first(count), room.counts);
+        integrator_.traceAll(std::span(room.rays).first(count), room.samplers,
+                             std::span(room.seen).first(count), room.counts);
     }
 
     const FilmSettings& settings_;
     const Camera& camera_;
-    const PathTracer& tracer_;
+    const Integrator& integrator_;
     PixelFilter filter_;
     Foreground foreground_;
     std::uint64_t seed_;
@@ -90,7 +91,7 @@ private:
 RenderResult render(const World& world, std::span<const std::unique_ptr<BodyOptics>> optics,
                     std::span<const std::unique_ptr<BodyField>> fields, Reporter& reporter) {
     const FilmSettings& settings = world.scene().film;
-    const PathTracer tracer(world, optics, fields);
+    const auto integrator = integratorOf(world.scene()).make({world, optics, fields});
     Film film(settings.width, settings.height, settings.layers);
     RenderResult result;
 
@@ -100,7 +101,7 @@ RenderResult render(const World& world, std::span<const std::unique_ptr<BodyOpti
             tiles.push_back(
                 {x, y, std::min(x + kTile, settings.width), std::min(y + kTile, settings.height)});
     Progress progress(reporter, "render", tiles.size());
-    const PixelSampler pixels(world, tracer);
+    const PixelSampler pixels(world, *integrator);
     std::mutex mutex;
     parallelFor(tiles.size(), 1, [&](std::size_t begin, std::size_t end) {
         PixelSampler::Room room;

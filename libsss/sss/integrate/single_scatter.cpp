@@ -1,6 +1,8 @@
 #include "sss/integrate/single_scatter.h"
 
 #include "sss/integrate/light_sampling.h"
+#include "sss/integrate/medium_coefficients.h"
+#include "sss/integrate/smooth_boundary.h"
 #include "sss/optics/fresnel.h"
 #include "sss/optics/phase.h"
 
@@ -10,20 +12,6 @@
 
 namespace sss {
 namespace {
-
-struct Coefficients {
-    Rgb sigmaS, sigmaT, g;
-    explicit Coefficients(const Medium& medium)
-        : sigmaS(medium.sigmaS), sigmaT(medium.sigmaA + medium.sigmaS), g(medium.g) {}
-};
-
-Rgb exponential(const Rgb& x) { return {std::exp(x.x), std::exp(x.y), std::exp(x.z)}; }
-
-// A propagation direction bent at a boundary: `along` arrives against `normal`.
-Vec3 refracted(const Vec3& along, const Vec3& normal, float cosOutside, float cosInside,
-               float eta) {
-    return along / eta + normal * (cosOutside / eta - cosInside);
-}
 
 // Where a straight line from inside meets the boundary on its way out.
 struct Exit {
@@ -51,19 +39,18 @@ std::optional<Exit> findExit(const World& world, const BodyOptics& optics, int b
     exit.cosOutside = glm::dot(normal, direction);
     exit.cosInside = refractedCosine(exit.cosOutside, optics.eta);
     if (!(exit.cosInside > 0)) return std::nullopt;  // eta < 1: no light comes in this way
-    exit.inward = refracted(-direction, normal, exit.cosOutside, exit.cosInside, optics.eta);
+    exit.inward =
+        refractedDirection(-direction, normal, exit.cosOutside, exit.cosInside, optics.eta);
     return exit;
 }
 
 // Everything on the way in but the light itself, towards the outgoing propagation direction `out`.
-Rgb entering(const Coefficients& medium, const BodyOptics& optics, const Exit& exit,
+Rgb entering(const MediumCoefficients& medium, const BodyOptics& optics, const Exit& exit,
              const Vec3& out) {
-    const float cosTheta = std::clamp(glm::dot(exit.inward, out), -1.0f, 1.0f);
     const float snell = exit.cosOutside / exit.cosInside;
     const float boundary = (1.0f - fresnelReflectance(exit.cosOutside, optics.eta)) * snell;
-    Rgb phase;
-    for (int c = 0; c < 3; ++c) phase[c] = henyeyGreenstein(cosTheta, medium.g[c]);
-    return phase * exponential(-medium.sigmaT * (exit.distance * snell)) * boundary;
+    return phaseBetween(medium, exit.inward, out) * medium.transmittance(exit.distance * snell) *
+           boundary;
 }
 
 struct Depth {
@@ -73,23 +60,16 @@ struct Depth {
 
 // Distance along the refracted ray: a channel is picked, its extinction sampled, and the three ways
 // to the same distance combined by the balance heuristic.
-Depth sampleDepth(const Coefficients& medium, Sampler& sampler) {
+Depth sampleDepth(const MediumCoefficients& medium, Sampler& sampler) {
     const float pick = sampler.next1D(), u = sampler.next1D();
     const int channel = std::min(2, static_cast<int>(pick * 3.0f));
     Depth depth;
     if (!(medium.sigmaT[channel] > 0)) return depth;
     depth.distance = -std::log1p(-u) / medium.sigmaT[channel];
-    const Rgb remaining = exponential(-medium.sigmaT * depth.distance);
+    const Rgb remaining = medium.transmittance(depth.distance);
     const float density = meanComponent(medium.sigmaT * remaining);
     if (density > 0) depth.weight = medium.sigmaS * remaining / density;
     return depth;
-}
-
-Vec3 phaseDirection(const Vec3& axis, float g, const Vec2& u) {
-    const float cosTheta = sampleHenyeyGreenstein(u.x, g);
-    const float sinTheta = std::sqrt(std::max(0.0f, 1.0f - cosTheta * cosTheta));
-    const float phi = 2.0f * kPiF * u.y;
-    return Frame(axis).toWorld({sinTheta * std::cos(phi), sinTheta * std::sin(phi), cosTheta});
 }
 
 // Share of the samples that look for light by light sampling; the others sample the phase function.
@@ -99,8 +79,8 @@ constexpr float kLightShare = 0.75f;
 // techniques, weighted by the power heuristic for one sample.
 class InScattering {
 public:
-    InScattering(const World& world, const BodyOptics& optics, const Coefficients& medium, int body,
-                 const Vec3& place, const Vec3& out)
+    InScattering(const World& world, const BodyOptics& optics, const MediumCoefficients& medium,
+                 int body, const Vec3& place, const Vec3& out)
         : world_(world), optics_(optics), medium_(medium), body_(body), place_(place), out_(out) {}
 
     Rgb estimate(Sampler& sampler, const IncomingRadiance& incoming,
@@ -136,7 +116,7 @@ private:
 
     Rgb byPhase(float lightShare, const Vec2& u, const IncomingRadiance& incoming,
                 SingleScatterCounts& counts) const {
-        const Vec3 direction = phaseDirection(-out_, meanComponent(medium_.g), u);
+        const Vec3 direction = sampleScattered(-out_, meanComponent(medium_.g), u);
         const float pdf = (1 - lightShare) * phasePdf(direction);
         if (!(pdf > 0)) return Rgb(0);
         ++counts.rays;
@@ -152,7 +132,7 @@ private:
 
     const World& world_;
     const BodyOptics& optics_;
-    const Coefficients& medium_;
+    const MediumCoefficients& medium_;
     int body_;
     Vec3 place_, out_;
 };
@@ -163,7 +143,7 @@ Rgb singleScattering(const World& world, const BodyOptics& optics, const Surface
                      const Vec3& wo, const Vec3& normal, Sampler& sampler,
                      const IncomingRadiance& incoming, SingleScatterCounts& counts) {
     ++counts.samples;
-    const Coefficients medium(optics.material.medium);
+    const MediumCoefficients medium(optics.material.medium);
     const float cosOut = glm::dot(normal, wo);
     const float cosOutInside = refractedCosine(cosOut, optics.eta);
     if (!(cosOut > 0 && cosOutInside > 0)) return Rgb(0);
@@ -173,7 +153,8 @@ Rgb singleScattering(const World& world, const BodyOptics& optics, const Surface
     // A ray that leaves the body before it scatters brings nothing.
     Ray inward;
     inward.origin = world.leave(hit, -hit.geometricNormal);
-    inward.direction = glm::normalize(refracted(-wo, normal, cosOut, cosOutInside, optics.eta));
+    inward.direction =
+        glm::normalize(refractedDirection(-wo, normal, cosOut, cosOutInside, optics.eta));
     inward.tMax = depth.distance;
     ++counts.rays;
     if (world.rays().occluded(inward, bodyMask(hit.body))) return Rgb(0);

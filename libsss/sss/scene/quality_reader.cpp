@@ -22,6 +22,12 @@ constexpr Field<QualitySettings> kQualityFields[] = {
      [](QualitySettings& q, const Node& n) { q.irradianceSamples = wholeNumber(n, 1, 65536); }},
     {"bounces", [](QualitySettings& q, const Node& n) { q.bounces = wholeNumber(n, 0, 64); }},
     {"seed", [](QualitySettings& q, const Node& n) { q.seed = readSeed(n); }},
+    {"integrator",
+     [](QualitySettings& q, const Node& n) {
+         q.integrator = text(n);
+         q.integratorLine = n.value.place.line;
+         q.integratorColumn = n.value.place.column;
+     }},
 };
 
 }  // namespace

@@ -158,6 +158,8 @@ struct QualitySettings {
     int irradianceSamples = 0;  ///< per point and light; 0 = from tolerance
     int bounces = 4;            ///< indirect bounces between objects; 0 = direct light only
     std::uint64_t seed = 0;
+    std::string integrator = "cached";             ///< a row of integrate/integrator_table.h
+    int integratorLine = 0, integratorColumn = 0;  ///< where the file names it; 0 = it does not
 };
 
 struct Scene {

@@ -4,6 +4,7 @@
 #include "sss/integrate/preprocess.h"
 #include "sss/optics/fresnel.h"
 #include "sss/optics/phase.h"
+#include "unit/integrate/batches.h"
 #include "unit/integrate/scene_maker.h"
 
 #include <gtest/gtest.h>
@@ -11,6 +12,7 @@
 namespace sss {
 namespace {
 
+using testing::Estimate;
 using testing::measured;
 using testing::SceneMaker;
 
@@ -36,10 +38,6 @@ double rigorous(const ChannelMedium& m, double muI, double muO, double cosAzimut
            (1 - fresnelReflectance(muO, m.eta)) * muI / (m.eta * m.eta * (muIn + muOut));
 }
 
-struct Estimate {
-    DRgb mean{0}, error{0};
-};
-
 // Single scattering at the middle of the top of body 0, by batches that are stratified in
 // themselves and independent of each other.
 class Experiment {
@@ -56,25 +54,11 @@ public:
     }
     Estimate run(const Vec3& wo, std::uint32_t perBatch, const IncomingRadiance& incoming) const {
         const SurfaceHit hit = surface(wo);
-        constexpr std::uint32_t kBatches = 32;
-        DRgb sum(0), squares(0);
-        for (std::uint32_t b = 0; b < kBatches; ++b) {
-            DRgb batch(0);
-            for (std::uint32_t i = 0; i < perBatch; ++i) {
-                Sampler sampler(combineSeeds(77, b), i);
-                SingleScatterCounts counts;
-                batch += DRgb(singleScattering(world_, *optics_[0], hit, wo, Vec3(0, 1, 0), sampler,
-                                               incoming, counts));
-            }
-            batch /= perBatch;
-            sum += batch;
-            squares += batch * batch;
-        }
-        Estimate e;
-        e.mean = sum / static_cast<double>(kBatches);
-        const DRgb variance = squares / static_cast<double>(kBatches) - e.mean * e.mean;
-        e.error = glm::sqrt(glm::max(variance, DRgb(0)) / static_cast<double>(kBatches - 1));
-        return e;
+        return testing::batchEstimate(77, perBatch, [&](Sampler& sampler) {
+            SingleScatterCounts counts;
+            return DRgb(singleScattering(world_, *optics_[0], hit, wo, Vec3(0, 1, 0), sampler,
+                                         incoming, counts));
+        });
     }
 
 private:

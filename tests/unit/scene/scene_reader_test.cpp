@@ -53,7 +53,8 @@ TEST(SceneReader, ReadsCameraFilmAndQuality) {
                        "filterRadius": 1.5, "layers": ["Z", "N"], "exposureStops": -1.5,
                        "precision": "float"},
                      "quality": {"tolerance": 0.5, "spacingMm": 0.25, "irradianceSamples": 9,
-                       "bounces": 0, "seed": 9007199254740991},
+                       "bounces": 0, "seed": 9007199254740991,
+                       "integrator": "volume"},
                      "comment": "x", "$schema": "y")"});
     EXPECT_EQ(scene.camera.position, DVec3(10, 20, 30));
     EXPECT_EQ(scene.camera.lookAt, DVec3(40, 50, 60));
@@ -74,6 +75,8 @@ TEST(SceneReader, ReadsCameraFilmAndQuality) {
     EXPECT_EQ(scene.quality.irradianceSamples, 9);
     EXPECT_EQ(scene.quality.bounces, 0);
     EXPECT_EQ(scene.quality.seed, 9007199254740991u);
+    EXPECT_EQ(scene.quality.integrator, "volume");
+    EXPECT_GT(scene.quality.integratorLine, 0);
 }
 
 TEST(SceneReader, ReadsEveryFilterName) {

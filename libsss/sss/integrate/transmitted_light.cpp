@@ -1,0 +1,38 @@
+#include "sss/integrate/transmitted_light.h"
+
+namespace sss {
+namespace {
+
+// A shadow ray stops short of the light by this share, for lights that are geometry.
+constexpr float kShadowShare = 1.0f - 1e-4f;
+
+}  // namespace
+
+Rgb transmittedShare(const World& world, std::span<const BodyMedium> media, const MediumPlace& from,
+                     const DirectSample& sample, std::uint64_t& rays) {
+    int body = from.body;
+    Rgb share(1);
+    Ray ray;
+    ray.origin = from.position;
+    ray.direction = sample.direction;
+    ray.tMax = sample.distance * kShadowShare;
+    Hit found;
+    Vec3 start = from.position;
+    while (++rays, world.rays().intersect(ray, found)) {
+        const SurfaceHit hit = world.surfaceAt(found);
+        if (hit.body < 0 || media[static_cast<std::size_t>(hit.body)].eta != 1.0f) return Rgb(0);
+        const bool leaving = glm::dot(hit.geometricNormal, ray.direction) > 0;
+        if (leaving && body == hit.body)
+            share *= media[static_cast<std::size_t>(body)].medium.transmittance(
+                glm::distance(start, hit.position));
+        body = leaving ? -1 : hit.body;
+        start = hit.position;
+        ray.origin = world.leave(hit, leaving ? hit.geometricNormal : -hit.geometricNormal);
+        ray.tMax = sample.distance * kShadowShare - glm::distance(from.position, ray.origin);
+        if (!(ray.tMax > 0)) break;
+    }
+    // A light inside a body is not seen from there: paths do not look for lights on their way.
+    return body >= 0 && std::isfinite(sample.distance) ? Rgb(0) : share;
+}
+
+}  // namespace sss

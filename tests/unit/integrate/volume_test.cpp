@@ -1,0 +1,209 @@
+#include "sss/medium/half_space.h"
+#include "sss/optics/fresnel.h"
+#include "sss/optics/fresnel_moments.h"
+#include "unit/integrate/volume_experiment.h"
+
+namespace sss {
+namespace {
+
+using namespace testing;
+
+// Without absorption, under a sky of radiance 1, all that a camera sees is 1, path by path.
+TEST(Volume, WhiteFurnace) {
+    for (const double eta : {0.8, 1.0, 1.33, 2.0})
+        for (const double g : {-0.9, 0.0, 0.9}) {
+            SCOPED_TRACE(::testing::Message() << "eta " << eta << ", g " << g);
+            TranslucentMaterial white = grey(0, 4, eta);
+            white.medium.g = DRgb(g);
+            SceneMaker maker;
+            // Bent normals, and boundaries that keep light in.
+            if (eta == 1.33)
+                maker.object(SphereShape{1}, maker.material(white));
+            else
+                maker.object(BoxShape{DVec3(2)}, maker.material(white));
+            maker.light(sky());
+            const Experiment experiment(maker);
+            const Estimate e = estimate(16, [&](Sampler& sampler) {
+                Ray ray;
+                ray.origin = Vec3(Vec2(1.8f) * (sampler.next2D() - 0.5f), 3.0f);
+                ray.direction = {0, 0, -1};
+                return all(experiment.trace(ray, sampler));
+            });
+            expectWithin(e, DRgb(1), 1e-4, 1e-4);
+            EXPECT_EQ(experiment.counts().lost, 0u);
+        }
+}
+
+// Each channel by the lead of any other.
+TEST(Volume, ColouredWhiteFurnace) {
+    TranslucentMaterial white = grey(0, 4, 1.4);
+    white.medium.sigmaS = {1, 4, 12};
+    white.medium.g = {0.7, -0.3, 0.8};
+    SceneMaker maker;
+    maker.object(BoxShape{DVec3(1)}, maker.material(white));
+    maker.light(sky());
+    const Experiment experiment(maker);
+    const Estimate e = estimate(512, [&](Sampler& sampler) {
+        return all(experiment.trace(downTo(0.5f, glm::normalize(Vec3(0.5f, 1, 0.2f))), sampler));
+    });
+    expectWithin(e, DRgb(1), 0.01);
+}
+
+// [van de Hulst 1980], by way of [Wang, Jacques & Zheng 1995, table 1].
+TEST(Volume, MatchedSlab) {
+    TranslucentMaterial material = grey(1, 9, 1);
+    material.medium.g = DRgb(0.75);
+    SceneMaker maker = slab(material, 0.2);
+    maker.light(sky());
+    SceneMaker reflecting = maker, transmitting = maker;
+    blackFloor(reflecting, -1);
+    blackCeiling(transmitting, 1);
+    const Experiment above(reflecting), below(transmitting);
+    const auto normal = [](const Experiment& experiment, float height) {
+        return estimate(1024, [&, height](Sampler& sampler) {
+            Ray ray = downTo(height);
+            ray.origin.y = height + 0.5f;
+            return all(experiment.trace(ray, sampler));
+        });
+    };
+    expectWithin(normal(above, 0.1f), DRgb(0.09739), 0.002);
+    expectWithin(normal(below, 0.1f), DRgb(0.66096), 0.004);
+}
+
+// [Giovanelli 1955]: 0.2600 in all; by adding-doubling 0.25994.
+TEST(Volume, MismatchedHalfSpace) {
+    SceneMaker maker = halfSpace(grey(1, 9, 1.5));
+    maker.light(sky());
+    const Experiment experiment(maker);
+    const Estimate inside = estimate(1024, [&](Sampler& sampler) {
+        return scattered(experiment.trace(downTo(kHalfSize), sampler));
+    });
+    expectWithin(inside, DRgb(0.22), 0.003, 1e-4);
+    const Estimate surface = estimate(256, [&](Sampler& sampler) {
+        return DRgb(experiment.trace(downTo(kHalfSize), sampler).surface);
+    });
+    expectWithin(surface, DRgb(0.04), 0.001);
+}
+
+// Chandrasekhar's H function: isotropic, matched.
+TEST(Volume, MatchedHalfSpace) {
+    struct Row {
+        double albedo, normal, diffuse;
+    };
+    for (const Row& row :
+         {Row{0.9, 0.41494747913082, 0.478024489228}, Row{0.99, 0.7527207171603, 0.794563652902}}) {
+        SCOPED_TRACE(row.albedo);
+        SceneMaker maker = halfSpace(grey(10 * (1 - row.albedo), 10 * row.albedo, 1));
+        maker.light(sky());
+        const Experiment experiment(maker);
+        const Estimate normal = estimate(512, [&](Sampler& sampler) {
+            return scattered(experiment.trace(downTo(kHalfSize), sampler));
+        });
+        expectWithin(normal, DRgb(row.normal), 0.003);
+        const Estimate diffuse = estimate(512, [&](Sampler& sampler) {
+            return scattered(experiment.trace(cosineDownTo(kHalfSize, sampler), sampler));
+        });
+        expectWithin(diffuse, DRgb(row.diffuse), 0.003);
+    }
+}
+
+// Three media that differ in all they can, each against adding-doubling.
+TEST(Volume, ColouredHalfSpace) {
+    TranslucentMaterial material = grey(0, 0, 1.3);
+    material.medium.sigmaA = {0.2, 0.5, 4};
+    material.medium.sigmaS = {20, 12, 8};
+    material.medium.g = {0.85, 0.3, -0.5};
+    SceneMaker maker = halfSpace(material);
+    maker.light(sky());
+    const Experiment experiment(maker);
+    const double normalIn = 1 - fresnelReflectance(1.0, 1.3);
+    const double diffuseIn = hemisphericalTransmittance(1.3);
+    DRgb normal, diffuse, single;
+    for (int c = 0; c < 3; ++c) {
+        const ChannelMedium medium = material.medium.channel(c);
+        const HalfSpaceTotals totals = halfSpaceTotals(medium);
+        normal[c] = normalIn * totals.normal;
+        diffuse[c] = diffuseIn * totals.diffuse;
+        single[c] = diffuseIn * singleScatterAlbedo(medium, Illumination::Diffuse);
+    }
+    const Estimate perpendicular = estimate(512, [&](Sampler& sampler) {
+        return scattered(experiment.trace(downTo(kHalfSize), sampler));
+    });
+    expectWithin(perpendicular, normal, 0.008, 1e-4);
+    const auto diffuseLight = [&](const auto& part) {
+        return estimate(512, [&](Sampler& sampler) {
+            return part(experiment.trace(cosineDownTo(kHalfSize, sampler), sampler));
+        });
+    };
+    expectWithin(diffuseLight(scattered), diffuse, 0.008, 1e-4);
+    expectWithin(diffuseLight([](const FilmSample& s) { return DRgb(s.single); }), single, 0.004);
+}
+
+// Spheres under an even sky: flux that leaves per flux that arrives, but for what the surface
+// reflects; by analog Monte Carlo elsewhere.
+TEST(Volume, Spheres) {
+    struct Row {
+        const char* medium;
+        double radius, expected, error;
+    };
+    for (const Row& row : {Row{"Marble", 1, 0.89593, 2e-4}, Row{"Marble", 10, 0.81337, 3e-4},
+                           Row{"Skimmilk", 1, 0.93324, 2e-4}, Row{"Skimmilk", 10, 0.88760, 2e-4}}) {
+        SCOPED_TRACE(::testing::Message() << row.medium << ' ' << row.radius);
+        TranslucentMaterial material = measured(row.medium);
+        const ChannelMedium green = material.medium.channel(1);
+        material.medium.sigmaA = DRgb(green.sigmaA);
+        material.medium.sigmaS = DRgb(green.sigmaS);
+        material.medium.g = DRgb(green.g);
+        SceneMaker maker;
+        maker.object(SphereShape{row.radius}, maker.material(material));
+        maker.light(sky());
+        const Experiment experiment(maker);
+        const double reflected = 1 - hemisphericalTransmittance(green.eta);
+        const Estimate e = estimate(row.radius > 1 ? 64 : 256, [&](Sampler& sampler) {
+            // Parallel rays over the disk meet the sphere as light from everywhere does.
+            FilmSample sample;
+            while (sample.alpha == 0) {
+                const Vec2 u = sampler.next2D();
+                const float r = static_cast<float>(row.radius) * std::sqrt(u.x);
+                Ray ray;
+                ray.origin = {r * std::cos(2 * kPiF * u.y), r * std::sin(2 * kPiF * u.y), 50};
+                ray.direction = {0, 0, -1};
+                sample = experiment.trace(ray, sampler);
+            }
+            return all(sample) - reflected;
+        });
+        expectWithin(e, DRgb(row.expected), 0.01, 3 * row.error);
+    }
+}
+
+// Without scattering: Beer and Lambert, with the reflections between two parallel boundaries.
+TEST(Volume, ClearSlab) {
+    for (const double eta : {1.0, 1.5}) {
+        SCOPED_TRACE(eta);
+        TranslucentMaterial clear = grey(0, 0, eta);
+        clear.medium.sigmaA = {0.1, 0.7, 3};
+        SceneMaker maker = slab(clear, 0.8);
+        maker.light(sky());
+        blackCeiling(maker, 1);
+        const Experiment experiment(maker);
+        const double once = fresnelReflectance(1.0, eta);
+        DRgb expected;
+        for (int c = 0; c < 3; ++c) {
+            const double passed = std::exp(-clear.medium.sigmaA[c] * 0.8);
+            expected[c] = (1 - once) * (1 - once) * passed / (1 - once * once * passed * passed);
+        }
+        DRgb other(0);
+        const Estimate e = estimate(1024, [&](Sampler& sampler) {
+            Ray ray = downTo(0.4f);
+            ray.origin.y = 0.9f;
+            const FilmSample sample = experiment.trace(ray, sampler);
+            other += scattered(sample);
+            return DRgb(sample.surface);
+        });
+        expectWithin(e, expected, 0.005);
+        EXPECT_EQ(other, DRgb(0));
+    }
+}
+
+}  // namespace
+}  // namespace sss
