@@ -1,6 +1,7 @@
 #include "sss/cloud/diffusion_sum.h"
 
 #include "sss/base/bounds.h"
+#include "sss/cloud/receiver_clusters.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,17 +14,21 @@ namespace {
 // That sum may therefore be this much above the tolerance: the most with which single receivers,
 // whose bounds are the tightest, keep errors within the tolerance and biases within a tenth of it
 // (diffusion_sum_test: half-lit and two-coloured bodies, marble, skim milk and ketchup, tolerances
-// 0.1 to 0.0001; groups of 32 stay below half of it).
-constexpr double kBoundSlack = 12.0;
+// 0.1 to 0.0001).
+constexpr double kBoundSlack = 8.0;
 // Differences between the channels' moments have the same sign over whole regions (red light here,
-// blue there) and hardly cancel: they weigh this much more, so that their slack is near 1.
+// blue there) and hardly cancel: they weigh this much more, so that they get no slack.
 constexpr float kChromaticWeight = 10.0f;
-// First guess of how many nodes share the error; the shares adapt when it is wrong.
-constexpr float kFirstShare = 1.0f / 40.0f;
+// First guess of how many nodes share the error, at 1 %; the finer the sum the more, about by the
+// fourth root of the tolerance (measured on the bunny). Where it is wrong, the shares adapt.
+constexpr double kFirstShares = 100.0;
 // A node that adds less than this share of the threshold is left out. Leaving out is always dark,
 // so it must not add up to a bias: all that is left out stays below 1e-5 of the tolerance or so.
 constexpr float kNegligibleShare = 1e-6f;
 constexpr int kMostRounds = 8;
+// Receivers whose bounds are taken together: fewer see the near nodes more exactly, more share the
+// walk through the tree.
+constexpr std::size_t kReceiversPerCluster = 8;
 // Opening rule of the estimate: node radius against distance.
 constexpr float kCoarseOpening = 0.6f;
 
@@ -77,22 +82,23 @@ void DiffusionSum::gatherLeaf(const OctreeNode& node, Scratch& scratch) const {
     }
 }
 
-// Fills the lists; returns the sum of the bounds of what was left out.
-DRgb DiffusionSum::gather(const Group& group, const Rgb& threshold, Scratch& scratch,
-                          SumCounts& counts) const {
+DRgb DiffusionSum::gather(const Group& group, const Rgb& threshold,
+                          std::span<const std::uint32_t> from, std::vector<std::uint32_t>* pending,
+                          Scratch& scratch, SumCounts& counts) const {
     scratch.nodes.clear();
     scratch.points.clear();
     ++counts.traversals;
     DRgb error{0};
     auto& stack = scratch.stack;
-    stack.assign(1, 0);
+    stack.assign(from.begin(), from.end());
     while (!stack.empty()) {
-        const OctreeNode& node = nodes_[stack.back()];
+        const std::uint32_t index = stack.back();
+        const OctreeNode& node = nodes_[index];
         stack.pop_back();
         ++counts.nodesVisited;
         if (isZero(node.flux)) continue;
-        const float distance = glm::length(node.centroid - group.centre);
-        const float nearest = std::max(0.0f, distance - group.radius - node.radius());
+        const float distance = glm::length(node.centroid - group.centre), size = node.radius();
+        const float nearest = std::max(0.0f, distance - group.radius - size);
         const KernelTable::BoundsRow& bound = table_.boundsAt(nearest * nearest);
         const Rgb most = node.flux * bound.derivative[0];
         if (glm::all(glm::lessThanEqual(most, threshold * kNegligibleShare))) {
@@ -106,6 +112,8 @@ DRgb DiffusionSum::gather(const Group& group, const Rgb& threshold, Scratch& scr
         if (glm::all(glm::lessThanEqual(left, threshold))) {
             error += DRgb(left);
             scratch.nodes.addNode(node);
+        } else if (pending && size < group.radius) {
+            pending->push_back(index);
         } else if (node.isLeaf()) {
             gatherLeaf(node, scratch);
         } else {
@@ -117,26 +125,39 @@ DRgb DiffusionSum::gather(const Group& group, const Rgb& threshold, Scratch& scr
     return error;
 }
 
-void DiffusionSum::evaluate(std::span<const Vec3> receivers, double tolerance, std::span<Rgb> out,
-                            Scratch& scratch, SumCounts& counts) const {
-    counts.receivers += receivers.size();
-    std::fill(out.begin(), out.end(), Rgb(0));
-    if (nodes_.empty() || receivers.empty()) return;
+void DiffusionSum::addLists(std::span<const Vec3> receivers, std::span<DRgb> sums, Scratch& scratch,
+                            SumCounts& counts) const {
+    accumulate(table_, scratch.nodes, true, receivers, sums);
+    accumulate(table_, scratch.points, false, receivers, sums);
+    counts.nodeInteractions += scratch.nodes.size() * receivers.size();
+    counts.pointInteractions += scratch.points.size() * receivers.size();
+}
+
+DiffusionSum::Group DiffusionSum::groupAround(std::span<const Vec3> receivers) {
     const Bounds box = boundsOf(receivers);
     Group group{box.centre(), 0.0f};
     for (const Vec3& p : receivers)
         group.radius = std::max(group.radius, glm::length(p - group.centre));
+    return group;
+}
 
-    Rgb threshold(0);
-    if (tolerance > 0)
-        threshold = Rgb(estimate(group, scratch, counts) * (tolerance * kBoundSlack)) * kFirstShare;
+void DiffusionSum::evaluateCluster(std::span<const Vec3> receivers, double tolerance,
+                                   const Shared& shared, Scratch& scratch,
+                                   SumCounts& counts) const {
+    const Group cluster = groupAround(receivers);
+    Rgb threshold = shared.threshold;
+    constexpr std::uint32_t kRoot = 0;
     for (int round = 0; round < kMostRounds; ++round) {
-        const DRgb error = gather(group, threshold, scratch, counts);
-        scratch.sums.assign(receivers.size(), DRgb(0));
-        accumulate(table_, scratch.nodes, true, receivers, scratch.sums);
-        accumulate(table_, scratch.points, false, receivers, scratch.sums);
-        counts.nodeInteractions += scratch.nodes.size() * receivers.size();
-        counts.pointInteractions += scratch.points.size() * receivers.size();
+        // First what the group has left over; where the bounds then miss, the cluster on its own.
+        const bool isFirst = round == 0;
+        DRgb error = isFirst ? shared.error : DRgb(0);
+        if (isFirst)
+            scratch.sums.assign(shared.sums.begin(), shared.sums.end());
+        else
+            scratch.sums.assign(receivers.size(), DRgb(0));
+        error += gather(cluster, threshold, isFirst ? scratch.pending : std::span(&kRoot, 1),
+                        nullptr, scratch, counts);
+        addLists(receivers, scratch.sums, scratch, counts);
         DRgb least = scratch.sums.front();
         for (const DRgb& sum : scratch.sums) least = glm::min(least, sum);
         if (allBelow(error, least * (tolerance * kBoundSlack))) break;
@@ -147,8 +168,44 @@ void DiffusionSum::evaluate(std::span<const Vec3> receivers, double tolerance, s
                 threshold[c] *= static_cast<float>(std::clamp(0.7 * allowed / error[c], 0.02, 0.7));
         }
     }
-    for (std::size_t i = 0; i < receivers.size(); ++i)
-        out[i] = Rgb(glm::max(scratch.sums[i], DRgb(0)));
+}
+
+void DiffusionSum::evaluate(std::span<const Vec3> receivers, double tolerance, std::span<Rgb> out,
+                            Scratch& scratch, SumCounts& counts) const {
+    counts.receivers += receivers.size();
+    std::fill(out.begin(), out.end(), Rgb(0));
+    if (nodes_.empty() || receivers.empty()) return;
+    const Group group = groupAround(receivers);
+    const std::vector<std::size_t> ends =
+        clusterReceivers(receivers, kReceiversPerCluster, scratch.order);
+    scratch.clustered.clear();
+    for (const std::uint32_t i : scratch.order) scratch.clustered.push_back(receivers[i]);
+
+    Shared shared{{}, DRgb(0), Rgb(0)};
+    if (tolerance > 0)
+        shared.threshold =
+            Rgb(estimate(group, scratch, counts) *
+                (tolerance * kBoundSlack / kFirstShares * std::pow(tolerance / 0.01, 0.25)));
+    constexpr std::uint32_t kRoot = 0;
+    scratch.pending.clear();
+    scratch.shared.assign(receivers.size(), DRgb(0));
+    const std::span<const Vec3> clustered(scratch.clustered);
+    if (ends.size() == 1) {
+        scratch.pending.push_back(kRoot);
+    } else {
+        shared.error = gather(group, shared.threshold, std::span(&kRoot, 1), &scratch.pending,
+                              scratch, counts);
+        addLists(clustered, scratch.shared, scratch, counts);
+    }
+    std::size_t begin = 0;
+    for (const std::size_t end : ends) {
+        const std::size_t count = end - begin;
+        shared.sums = std::span(scratch.shared).subspan(begin, count);
+        evaluateCluster(clustered.subspan(begin, count), tolerance, shared, scratch, counts);
+        for (std::size_t k = 0; k < count; ++k)
+            out[scratch.order[begin + k]] = Rgb(glm::max(scratch.sums[k], DRgb(0)));
+        begin = end;
+    }
 }
 
 DRgb DiffusionSum::bruteForce(const Vec3& receiver) const {

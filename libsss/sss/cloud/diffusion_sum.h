@@ -29,6 +29,9 @@ struct SumCounts {
 /// from anywhere in the group, and the differences between the channels' moments) is below a share
 /// of tolerance x M; the shares are made smaller until the bounds add up to what is asked for.
 /// tolerance 0 sums over all points.
+///
+/// The group takes what it can take as one; what is too near for that is left to clusters of a few
+/// receivers each, whose bounds are far tighter, since they are seen from a smaller place.
 class DiffusionSum {
 public:
     DiffusionSum(const CloudView& cloud, std::span<const OctreeNode> nodes,
@@ -37,8 +40,10 @@ public:
     /// Reusable memory of one thread.
     struct Scratch {
         InteractionList nodes, points;
-        std::vector<std::uint32_t> stack;
-        std::vector<DRgb> sums;
+        std::vector<std::uint32_t> stack, pending;
+        std::vector<std::uint32_t> order;  ///< receivers by cluster
+        std::vector<Vec3> clustered;       ///< their positions in that order
+        std::vector<DRgb> shared, sums;
     };
 
     /// `out[i]` = M at receivers[i] (mm, body space). The answer of a receiver depends on its
@@ -53,10 +58,24 @@ private:
         Vec3 centre;
         float radius;
     };
+    static Group groupAround(std::span<const Vec3> receivers);
     DRgb estimate(const Group& group, Scratch& scratch, SumCounts& counts) const;
-    DRgb gather(const Group& group, const Rgb& threshold, Scratch& scratch,
-                SumCounts& counts) const;
+    /// Fills the lists from the nodes `from` down; returns the sum of the bounds of what was left
+    /// out. Nodes smaller than the group that it cannot take whole are left to `pending`, if given.
+    DRgb gather(const Group& group, const Rgb& threshold, std::span<const std::uint32_t> from,
+                std::vector<std::uint32_t>* pending, Scratch& scratch, SumCounts& counts) const;
     void gatherLeaf(const OctreeNode& node, Scratch& scratch) const;
+    /// Adds the lists to the sums of `receivers`.
+    void addLists(std::span<const Vec3> receivers, std::span<DRgb> sums, Scratch& scratch,
+                  SumCounts& counts) const;
+    /// Sums of one cluster: what is left after the group's `shared` part and its `error`.
+    struct Shared {
+        std::span<const DRgb> sums;
+        DRgb error;
+        Rgb threshold;
+    };
+    void evaluateCluster(std::span<const Vec3> receivers, double tolerance, const Shared& shared,
+                         Scratch& scratch, SumCounts& counts) const;
 
     CloudView cloud_;
     std::span<const OctreeNode> nodes_;

@@ -16,8 +16,7 @@ Rgb IrradianceEstimator::estimate(const SurfaceHit& hit, Sampler& sampler,
 
 Rgb IrradianceEstimator::direct(const SurfaceHit& hit, const Vec3& normal, const Vec3& from,
                                 Sampler& sampler, PathCounts& counts) const {
-    const float uPick = sampler.next1D();
-    const DirectSample light = sampleDirect(world_, from, uPick, sampler.next2D());
+    const DirectSample light = sampleDirect(world_, from, hit.geometricNormal, sampler);
     if (!(light.pdf > 0)) return Rgb(0);
     const float cosine = glm::dot(light.direction, normal);
     if (cosine <= 0 || glm::dot(light.direction, hit.geometricNormal) <= 0) return Rgb(0);
