@@ -20,12 +20,13 @@ std::array<const Profile*, 3> threeTimes(const Profile& p) { return {&p, &p, &p}
 double tableError(const Profile& profile, double mfp) {
     const double cell = 0.4 * mfp;
     const KernelTable table(threeTimes(profile), 1000 * mfp, cell);
-    const double peak = RegularisedProfile(profile, cell)(0);
+    const RegularisedProfile regularised(profile, cell);
+    const double peak = regularised(0);
     double worst = 0;
     for (int i = 0; i < 600; ++i) {
         const double r = mfp * (i == 0 ? 0.0 : 1e-3 * std::pow(10.0, i * 0.01));
         const auto u = static_cast<float>(r * r);
-        const double truth = RegularisedProfile(profile, cell)(std::sqrt(static_cast<double>(u)));
+        const double truth = regularised(std::sqrt(static_cast<double>(u)));
         if (truth < 1e-8 * peak || r > 999 * mfp) continue;
         const Rgb f = table.evaluate(u);
         EXPECT_EQ(f.x, f.y);
@@ -94,14 +95,14 @@ TEST(KernelTable, SingularProfileKeepsItsTotal) {
     const Profile& p = optics.profile(1);
     for (const double cell : {0.02, 0.1, 0.4}) {
         // Integral of 2 pi r R dr = of pi R du, by steps even in log u.
+        const RegularisedProfile regularised(p, cell);
         double sum = 0;
         const double du = 0.01;
         for (double logU = std::log(1e-10); logU < std::log(1e4); logU += du)
-            sum +=
-                kPi * std::exp(logU) * du * RegularisedProfile(p, cell)(std::sqrt(std::exp(logU)));
+            sum += kPi * std::exp(logU) * du * regularised(std::sqrt(std::exp(logU)));
         EXPECT_NEAR(sum / p.total(), 1.0, 2e-4) << cell;
-        EXPECT_TRUE(std::isfinite(RegularisedProfile(p, cell)(0)));
-        EXPECT_EQ(RegularisedProfile(p, cell)(5.1 * cell), p.reflectance(5.1 * cell));
+        EXPECT_TRUE(std::isfinite(regularised(0)));
+        EXPECT_EQ(regularised(5.1 * cell), p.reflectance(5.1 * cell));
     }
 }
 
@@ -130,6 +131,10 @@ TEST(KernelTable, BoundsHoldAndDecrease) {
         const Optics optics(name, model);
         const double l = optics.smallestMfp(), cell = 0.4 * l;
         const KernelTable table(optics.pointers(), 100 * l, cell);
+        const std::array<RegularisedProfile, 3> regularised{
+            RegularisedProfile(optics.profile(0), cell),
+            RegularisedProfile(optics.profile(1), cell),
+            RegularisedProfile(optics.profile(2), cell)};
         Rgb previous[4];
         std::fill(std::begin(previous), std::end(previous), Rgb(1e30f));
         for (int i = 0; i < 150; ++i) {
@@ -141,7 +146,7 @@ TEST(KernelTable, BoundsHoldAndDecrease) {
                     EXPECT_LE(bound, previous[k][c]);
                     previous[k][c] = bound;
                     const auto f = [&](double x) {
-                        return RegularisedProfile(optics.profile(c), cell)(x);
+                        return regularised[static_cast<std::size_t>(c)](x);
                     };
                     if (f(r) < 1e-12 * f(0)) continue;
                     EXPECT_GE(static_cast<double>(bound),
