@@ -31,7 +31,8 @@
 namespace sss {
 namespace {
 
-constexpr int kZipLevel = 1;  // lossless at any level; the higher ones cost more time than they save
+constexpr int kZipLevel =
+    1;  // lossless at any level; the higher ones cost more time than they save
 constexpr int kMaximumSide = 1 << 17;
 constexpr std::size_t kMaximumValues = std::size_t{1} << 30;  // 4 GiB of floats
 // No compression of the format packs flat pictures tighter than this many values a byte.
