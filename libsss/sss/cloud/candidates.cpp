@@ -50,8 +50,7 @@ Verdict judgeScalar(const KernelTable& table, const CandidateList::Block& block,
         const float distance = glm::length(Vec3(block.x[i], block.y[i], block.z[i]) - cell.centre);
         const float nearest = std::max(0.0f, distance - cell.radius - block.radius[i]);
         const KernelTable::BoundsRow& bound = table.boundsAt(nearest * nearest);
-        const float extent = block.extent[i] + cell.reach;
-        const float third = extent * extent * extent * (1.0f / 6.0f);
+        const float third = thirdOrder(block.extent[i], cell.reach);
         const float second = block.difference[i] * 0.5f + block.offset[i] * cell.reach;
         bool isDark = true, isTaken = true;
         Rgb changing, steady;

@@ -244,9 +244,12 @@ HWY_ATTR Verdict judgeAny(const KernelTable& table, const CandidateList::Block& 
             hn::Sub(hn::ShiftRight<KernelTable::kShift>(bits), hn::Set(di, table.baseRow())),
             lastRow);
         const auto place = hn::Mul(row, hn::Set(di, KernelTable::kBoundFloats));
-        const auto extent = hn::Add(hn::Load(d, block.extent + i), reach);
+        // thirdOrder()
+        const auto extent = hn::Load(d, block.extent + i), both = hn::Add(extent, reach);
         const auto third =
-            hn::Mul(hn::Mul(extent, extent), hn::Mul(extent, hn::Set(d, 1.0f / 6.0f)));
+            hn::MulSub(hn::Mul(both, hn::Set(d, kReachWeight / 6.0f)), hn::Mul(both, both),
+                       hn::Mul(hn::Mul(extent, hn::Set(d, (kReachWeight - 1.0f) / 6.0f)),
+                               hn::Mul(extent, extent)));
         const auto offset = hn::Load(d, block.offset + i);
         const auto second =
             hn::MulAdd(hn::Load(d, block.difference + i), hn::Set(d, 0.5f), hn::Mul(offset, reach));
