@@ -43,7 +43,7 @@ private:
         const Vec3 squares = offset * offset;
         const Vec3 cosines = glm::abs(frame_.toLocal(place.geometricNormal));
         // Where the place itself is met: R_d and p may both be infinite.
-        const float least = 1e-9f * sampler_.reach_ * sampler_.reach_;
+        const float least = 1e-14f * sampler_.reach_ * sampler_.reach_;
         float density = 0;
         for (int a = 0; a < kProbes; ++a) {
             const float aside = squares[(a + 1) % 3] + squares[(a + 2) % 3];
