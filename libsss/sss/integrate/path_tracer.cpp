@@ -1,6 +1,7 @@
 #include "sss/integrate/path_tracer.h"
 
 #include "sss/base/assert.h"
+#include "sss/integrate/first_hit.h"
 #include "sss/integrate/single_scatter.h"
 
 #include <algorithm>
@@ -144,10 +145,7 @@ FilmSample PathTracer::shade(const FirstSurface& surface, const Ray& ray, Sample
     const Bsdf& bsdf = surface.bsdf;
     const int bounces = world_.scene().quality.bounces;
     FilmSample seen;
-    seen.alpha = 1;
-    seen.depth = hit.distance * glm::dot(ray.direction, world_.camera().forward());
-    seen.normal = bsdf.shadingNormal();
-    seen.albedo = bsdf.albedo();
+    describeFirstHit(world_, ray, hit, bsdf, seen);
     seen.surface = radianceOfLights(world_, ray, hit.distance, {}) +
                    radianceOfEmitter(world_, ray, hit, {}) + surface.direct;
     if (hit.body >= 0 && exitance_) {
