@@ -4,11 +4,14 @@
 
 namespace sss {
 
-/// Monte Carlo path tracing with the BSSRDF, sample by sample [Koutajoki 2002, "BSSRDF
-/// (Bidirectional Surface Scattering Distribution Function)", section 4, with its equations 16 to
-/// 18 put right]: entry places around the place seen, one shadow ray from each, indirect light, and
-/// single scattering along the refracted ray. No pass 1, no cache; the same model as the cached
-/// integrator's and without its tolerance: what that one tends to.
+/// Path tracing with the BSSRDF, sample by sample [Koutajoki 2002, "BSSRDF (Bidirectional Surface
+/// Scattering Distribution Function)", section 4]: a place of entry near the place seen, one shadow
+/// ray and one indirect ray from there, and single scattering along the refracted ray. No pass 1,
+/// no cache; the model of the cached integrator without its tolerance: what that one tends to.
+///
+/// The paper's Eqs. 16 to 18 do not integrate to what they should: here light is divided by the
+/// density of its place of entry (EntrySampler) and looked for from that place, not from the one
+/// seen; for single scattering see single_scatter.h.
 class BssrdfIntegrator : public Integrator {
 public:
     explicit BssrdfIntegrator(const IntegratorInput& input)
