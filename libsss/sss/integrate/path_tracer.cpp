@@ -126,8 +126,8 @@ Rgb PathTracer::incoming(Ray ray, ScatterOrigin origin, int bounces, Sampler& sa
         if (isWide) bsdf.roughenForIndirect();
         // Seen at second hand, all that comes from within is taken from the diffusion, unscaled:
         // the profile's total has the light scattered once in it.
-        sum += throughput * directLight(hit, bsdf, sampler, counts);
-        sum += throughput * diffusion(hit, bsdf, sampler, counts);
+        const Rgb direct = directLight(hit, bsdf, sampler, counts);
+        sum += throughput * (direct + diffusion(hit, bsdf, sampler, counts));
         if (!scatter(hit, bsdf, sampler, ray, origin, throughput)) return sum;
         if (depth + 1 >= kRouletteDepth) {
             const float survival = std::min(0.95f, maxComponent(throughput));
