@@ -64,6 +64,9 @@ public:
     }
     const Bounds& bounds() const { return bounds_; }
 
+    /// An object's triangles as they stand in the world.
+    RayScene::Geometry geometry(std::size_t object) const;
+    std::size_t objectCount() const { return parts_.size(); }
     /// Adds an object's surface, as it stands in the world, to a content hash.
     void addGeometryTo(Hasher& hasher, std::size_t object) const;
 
