@@ -11,6 +11,7 @@
 
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace sss {
@@ -53,6 +54,13 @@ public:
     }
     const std::vector<std::unique_ptr<Light>>& lights() const { return lights_; }
     const LightPicker& picker() const { return *picker_; }
+    /// A light that Light::seen() can find, and the probability with which picker() picks it.
+    struct VisibleLight {
+        const Light* light;
+        float pmf;
+        bool isInfinite;
+    };
+    std::span<const VisibleLight> visibleLights() const { return visibleLights_; }
     /// The light that an object's faces are, if they are an emitter.
     const MeshLight* emitter(int object) const {
         return emitters_[static_cast<std::size_t>(object)];
@@ -98,6 +106,7 @@ private:
     std::vector<Part> parts_;  // by object
     std::optional<RayScene> rays_;
     std::vector<std::unique_ptr<Light>> lights_;
+    std::vector<VisibleLight> visibleLights_;
     std::vector<const MeshLight*> emitters_;   // by object
     std::vector<std::size_t> emitterIndices_;  // by object
     bool hasEmitters_ = false;
