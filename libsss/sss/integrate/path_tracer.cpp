@@ -198,7 +198,9 @@ void PathTracer::trace(std::span<const Ray> rays, std::span<Sampler> samplers,
         shadows.emplace_back(shadow);
         lit.emplace_back(&surface);
     }
-    const std::uint64_t occluded = world_.rays().occludedTogether(shadows.span());
+    const std::uint64_t occluded = world_.rays().occludedTogether(
+        shadows.span(),
+        world_.hasWideLights() ? RayScene::Together::Parted : RayScene::Together::Parallel);
     counts.rays += shadows.size();
     for (std::size_t k = 0; k < lit.size(); ++k)
         if (occluded >> k & 1) lit[k]->direct = Rgb(0);
