@@ -78,7 +78,8 @@ using Numbers = std::array<float, 17>;
 static_assert(sizeof(Numbers) == sizeof(FilmSample));
 constexpr std::size_t kNotNegative = 13, kFinite = 16;
 
-bool isUsable(const Numbers& numbers) {
+// Apart: inlined, GCC takes the numbers one by one.
+[[gnu::noinline]] bool isUsable(const Numbers& numbers) {
     // On the bits, which is a few instructions for all numbers together: a number that is not
     // finite has all bits of its exponent set, and adding one there carries into the sign; one that
     // is negative has its sign set, and another bit (zero has a sign too).
