@@ -116,10 +116,13 @@ void World::makeParts(const std::vector<LoadedObject>& loaded) {
             part.firstBodyFace = body.firstFace[k];
         }
     }
-    for (std::size_t k = 0; k < parts_.size(); ++k)
-        geometries[k] = {parts_[k].positions, parts_[k].faces,
-                         parts_[k].body >= 0 ? bodyMask(parts_[k].body) : 1u};
+    for (std::size_t k = 0; k < parts_.size(); ++k) geometries[k] = geometry(k);
     rays_.emplace(geometries);
+}
+
+RayScene::Geometry World::geometry(std::size_t object) const {
+    const Part& part = parts_[object];
+    return {part.positions, part.faces, part.body >= 0 ? bodyMask(part.body) : 1u};
 }
 
 void World::makeLights() {
@@ -146,6 +149,9 @@ void World::makeLights() {
         for (const int object : body.objects)
             for (const Vec3& p : parts_[static_cast<std::size_t>(object)].positions) target.add(p);
     picker_.emplace(lights_, target.isEmpty() ? bounds_ : target);
+    for (std::size_t k = 0; k < scene_.lights.size(); ++k)  // emitters come after them
+        if (!lights_[k]->isDelta())
+            visibleLights_.push_back({lights_[k].get(), picker_->pmf(k), lights_[k]->isInfinite()});
 }
 
 void World::addGeometryTo(Hasher& hasher, std::size_t object) const {

@@ -11,6 +11,7 @@
 
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace sss {
@@ -53,6 +54,15 @@ public:
     }
     const std::vector<std::unique_ptr<Light>>& lights() const { return lights_; }
     const LightPicker& picker() const { return *picker_; }
+    /// A light that Light::seen() can find, and the probability with which picker() picks it.
+    struct VisibleLight {
+        const Light* light;
+        float pmf;
+        bool isInfinite;
+    };
+    std::span<const VisibleLight> visibleLights() const { return visibleLights_; }
+    /// Whether any light is more than a point or a direction.
+    bool hasWideLights() const { return hasEmitters_ || !visibleLights_.empty(); }
     /// The light that an object's faces are, if they are an emitter.
     const MeshLight* emitter(int object) const {
         return emitters_[static_cast<std::size_t>(object)];
@@ -64,6 +74,9 @@ public:
     }
     const Bounds& bounds() const { return bounds_; }
 
+    /// An object's triangles as they stand in the world.
+    RayScene::Geometry geometry(std::size_t object) const;
+    std::size_t objectCount() const { return parts_.size(); }
     /// Adds an object's surface, as it stands in the world, to a content hash.
     void addGeometryTo(Hasher& hasher, std::size_t object) const;
 
@@ -95,6 +108,7 @@ private:
     std::vector<Part> parts_;  // by object
     std::optional<RayScene> rays_;
     std::vector<std::unique_ptr<Light>> lights_;
+    std::vector<VisibleLight> visibleLights_;
     std::vector<const MeshLight*> emitters_;   // by object
     std::vector<std::size_t> emitterIndices_;  // by object
     bool hasEmitters_ = false;
