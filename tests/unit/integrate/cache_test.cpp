@@ -216,7 +216,7 @@ TEST(CloudCache, DescribesItself) {
     const TemporaryFolder folder;
     const Written written(folder / "a.ssc");
     const JsonValue info = describeCache(folder / "a.ssc");
-    EXPECT_EQ(info.find("format")->value.asNumber(), 1);
+    EXPECT_EQ(info.find("format")->value.asNumber(), kCacheVersion);
     EXPECT_EQ(info.find("bodies")->value.items().size(), 1u);
     const JsonValue& body = info.find("bodies")->value.items()[0];
     EXPECT_EQ(body.find("points")->value.asNumber(),
