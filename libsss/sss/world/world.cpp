@@ -118,9 +118,7 @@ void World::makeParts(const std::vector<LoadedObject>& loaded) {
             part.firstBodyFace = body.firstFace[k];
         }
     }
-    for (std::size_t k = 0; k < parts_.size(); ++k)
-        geometries[k] = {parts_[k].positions, parts_[k].faces,
-                         parts_[k].body >= 0 ? bodyMask(parts_[k].body) : 1u};
+    for (std::size_t k = 0; k < parts_.size(); ++k) geometries[k] = geometry(k);
     rays_.emplace(geometries);
 }
 
@@ -137,6 +135,11 @@ void World::makeGlows() {
         glows_[v] = {light.get(), lights_.size()};
         lights_.push_back(std::move(light));
     }
+}
+
+RayScene::Geometry World::geometry(std::size_t object) const {
+    const Part& part = parts_[object];
+    return {part.positions, part.faces, part.body >= 0 ? bodyMask(part.body) : 1u};
 }
 
 void World::makeLights() {

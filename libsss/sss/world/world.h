@@ -78,6 +78,9 @@ public:
     const VolumeLight* glow(std::size_t volume) const { return glows_[volume].light; }
     std::size_t glowIndex(std::size_t volume) const { return glows_[volume].index; }
 
+    /// An object's triangles as they stand in the world.
+    RayScene::Geometry geometry(std::size_t object) const;
+    std::size_t objectCount() const { return parts_.size(); }
     /// Adds an object's surface, as it stands in the world, to a content hash.
     void addGeometryTo(Hasher& hasher, std::size_t object) const;
 
