@@ -1,6 +1,7 @@
 #include "sss/integrate/path_tracer.h"
 
 #include "sss/base/assert.h"
+#include "sss/integrate/arriving_light.h"
 #include "sss/integrate/single_scatter.h"
 
 #include <algorithm>
@@ -29,6 +30,7 @@ void PathCounts::add(const PathCounts& other) {
     scatterings += other.scatterings;
     leaks += other.leaks;
     lost += other.lost;
+    volumeStretches += other.volumeStretches;
 }
 
 PathTracer::PathTracer(const World& world, std::span<const std::unique_ptr<BodyOptics>> optics,
@@ -55,15 +57,38 @@ PathTracer::OpenLight PathTracer::openLight(const SurfaceHit& hit, const Bsdf& b
     if (isZero(value)) return {};
     const float weight =
         direct.isDelta ? 1.0f : powerHeuristic(direct.pdf, bsdf.pdf(direct.direction));
-    return {value * direct.radianceOverPdf * weight, shadowRay(from, direct)};
+    return {value * direct.radianceOverPdf * weight, shadowRay(from, direct), direct};
 }
 
 Rgb PathTracer::directLight(const SurfaceHit& hit, const Bsdf& bsdf, Sampler& sampler,
                             PathCounts& counts) const {
     const OpenLight light = openLight(hit, bsdf, sampler);
-    if (isZero(light.radiance)) return Rgb(0);
-    ++counts.rays;
-    return world_.rays().occluded(light.shadow) ? Rgb(0) : light.radiance;
+    return isZero(light.radiance) ? Rgb(0) : arriving(light, counts);
+}
+
+Rgb PathTracer::arriving(const OpenLight& light, PathCounts& counts) const {
+    return light.radiance * arrivingShare(world_, light.shadow, light.sample, counts.rays);
+}
+
+VolumePassage PathTracer::throughVolumes(const PathStretch& stretch, int bounces, Sampler& sampler,
+                                         PathCounts& counts) const {
+    ++counts.volumeStretches;
+    return passVolumes(
+        world_, stretch, sampler,
+        [&](const Ray& ray, const Vec3& from, float pdf) {
+            return incoming(ray, {from, pdf, true}, std::min(bounces, 1), sampler, counts);
+        },
+        counts.rays);
+}
+
+void PathTracer::seeThroughVolumes(const PathStretch& stretch, Sampler& sampler, FilmSample& seen,
+                                   PathCounts& counts) const {
+    const VolumePassage passage =
+        throughVolumes(stretch, world_.scene().quality.bounces, sampler, counts);
+    seen.diffusion *= passage.transmittance;
+    seen.single *= passage.transmittance;
+    seen.surface = seen.surface * passage.transmittance + passage.radiance;
+    seen.alpha = std::max(seen.alpha, 1 - meanComponent(passage.transmittance));
 }
 
 Rgb PathTracer::diffusion(const SurfaceHit& hit, const Bsdf& bsdf, PathCounts& counts) const {
@@ -106,15 +131,23 @@ bool PathTracer::scatter(const SurfaceHit& hit, const Bsdf& bsdf, Sampler& sampl
 Rgb PathTracer::incoming(Ray ray, ScatterOrigin origin, int bounces, Sampler& sampler,
                          PathCounts& counts) const {
     Rgb sum(0), throughput(1);
+    const bool afterVolume = origin.afterVolume;
     bool isWide = false;
     for (int depth = 0;; ++depth) {
-        if (depth >= bounces && !world_.hasEmitters())
+        if (depth >= bounces && !world_.hasEmitters() && !world_.hasVolumes())
             return sum + throughput * radianceOfOpenLights(world_, ray, origin, counts.rays);
         Hit found;
         ++counts.rays;
         const bool isHit = world_.rays().intersect(ray, found);
         const float distance = isHit ? found.t : kInfinity;
         sum += throughput * radianceOfLights(world_, ray, distance, origin);
+        if (world_.hasVolumes()) {
+            origin.afterVolume = afterVolume;
+            const VolumePassage passage =
+                throughVolumes({ray, distance, origin}, bounces, sampler, counts);
+            sum += throughput * passage.radiance;
+            throughput *= passage.transmittance;
+        }
         if (!isHit) return sum;
         const SurfaceHit hit = world_.surfaceAt(found);
         sum += throughput * radianceOfEmitter(world_, ray, hit, origin);
@@ -148,8 +181,9 @@ FilmSample PathTracer::shade(const FirstSurface& surface, const Ray& ray, Sample
     seen.depth = hit.distance * glm::dot(ray.direction, world_.camera().forward());
     seen.normal = bsdf.shadingNormal();
     seen.albedo = bsdf.albedo();
-    seen.surface = radianceOfLights(world_, ray, hit.distance, {}) +
-                   radianceOfEmitter(world_, ray, hit, {}) + surface.direct;
+    // In the diffuse limit, what comes from within is what the surface reflects.
+    Rgb& reflected = hit.body >= 0 && fields_.empty() ? seen.diffusion : seen.surface;
+    reflected = radianceOfEmitter(world_, ray, hit, {}) + surface.direct;
     if (hit.body >= 0 && !fields_.empty()) {
         const BodyOptics& optics = *optics_[static_cast<std::size_t>(hit.body)];
         seen.diffusion = diffusion(hit, bsdf, counts) * optics.multipleScale;
@@ -165,7 +199,7 @@ FilmSample PathTracer::shade(const FirstSurface& surface, const Ray& ray, Sample
     const float survival =
         std::clamp(kReflectionEffort * maxComponent(throughput), kLeastReflectionShare, 1.0f);
     if (sampler.next1D() < survival)
-        seen.surface += throughput / survival * incoming(next, origin, bounces, sampler, counts);
+        reflected += throughput / survival * incoming(next, origin, bounces, sampler, counts);
     return seen;
 }
 
@@ -188,6 +222,10 @@ void PathTracer::trace(std::span<const Ray> rays, std::span<Sampler> samplers,
             surfaces[i].emplace(FirstSurface{hit, bsdfAt(hit, -rays[i].direction)});
         const OpenLight light = openLight(hit, surface.bsdf, samplers[i]);
         if (isZero(light.radiance)) continue;
+        if (world_.hasVolumes()) {
+            surface.direct = arriving(light, counts);
+            continue;
+        }
         surface.direct = light.radiance;
         shadows[shadowCount] = light.shadow;
         lit[shadowCount++] = &surface;
@@ -198,12 +236,11 @@ void PathTracer::trace(std::span<const Ray> rays, std::span<Sampler> samplers,
     for (std::size_t k = 0; k < shadowCount; ++k)
         if (occluded >> k & 1) lit[k]->direct = Rgb(0);
     for (std::size_t i = 0; i < rays.size(); ++i) {
-        if (surfaces[i]) {
-            seen[i] = shade(*surfaces[i], rays[i], samplers[i], counts);
-        } else {
-            seen[i] = {};
-            seen[i].surface = radianceOfLights(world_, rays[i], kInfinity, {});
-        }
+        const float distance = surfaces[i] ? surfaces[i]->hit.distance : kInfinity;
+        seen[i] = surfaces[i] ? shade(*surfaces[i], rays[i], samplers[i], counts) : FilmSample{};
+        if (world_.hasVolumes())
+            seeThroughVolumes({rays[i], distance, {}}, samplers[i], seen[i], counts);
+        seen[i].surface += radianceOfLights(world_, rays[i], distance, {});
     }
 }
 

@@ -5,6 +5,7 @@
 #include "sss/integrate/body_optics.h"
 #include "sss/integrate/bsdf.h"
 #include "sss/integrate/light_sampling.h"
+#include "sss/integrate/volume_passage.h"
 #include "sss/world/world.h"
 
 #include <memory>
@@ -21,13 +22,15 @@ struct PathCounts {
     std::uint64_t scatterings = 0;  ///< inside bodies, one by one (radiative transfer)
     std::uint64_t leaks = 0;        ///< times a path met its body's surface where none should be
     std::uint64_t lost = 0;         ///< paths that did not end
+    std::uint64_t volumeStretches = 0;  ///< of paths, looked at for volumes; 0 without volumes
 
     void add(const PathCounts& other);
 };
 
 /// Path tracing with next-event estimation and multiple importance sampling. Translucent bodies
 /// reflect, send out the exitance of their field, and scatter singly; without fields (pass 1) they
-/// stand in their diffuse limit. Const and thread-safe.
+/// stand in their diffuse limit. Volumes in space dim, glow and scatter once a path. Const and
+/// thread-safe.
 class PathTracer {
 public:
     /// `optics` by body; `fields` by body, or empty for the diffuse limit. All outlive the tracer.
@@ -67,7 +70,10 @@ private:
     struct OpenLight {
         Rgb radiance{0.0f};
         Ray shadow;
+        DirectSample sample;
     };
+    /// What of it arrives.
+    Rgb arriving(const OpenLight& light, PathCounts& counts) const;
     OpenLight openLight(const SurfaceHit& hit, const Bsdf& bsdf, Sampler& sampler) const;
     /// What the camera sees.
     struct FirstSurface {
@@ -75,6 +81,11 @@ private:
         Bsdf bsdf;
         Rgb direct{0.0f};
     };
+    VolumePassage throughVolumes(const PathStretch& stretch, int bounces, Sampler& sampler,
+                                 PathCounts& counts) const;
+    /// Puts what volumes do between the camera and what is seen into it.
+    void seeThroughVolumes(const PathStretch& stretch, Sampler& sampler, FilmSample& seen,
+                           PathCounts& counts) const;
     FilmSample shade(const FirstSurface& surface, const Ray& ray, Sampler& sampler,
                      PathCounts& counts) const;
     Bsdf bsdfAt(const SurfaceHit& hit, const Vec3& wo) const;

@@ -27,6 +27,7 @@ private:
     enum class Layer { Undecided, Surface, Single, Diffusion };
 
     bool throughSpace();
+    bool scatterInVolumes(const VolumeSegment& segment, float distanceMm);
     bool throughMedium();
     bool intersectInside(SurfaceHit& hit);
     bool collideAfter(float distanceMm);
