@@ -11,21 +11,25 @@ class VolumeLobes {
 public:
     VolumeLobes(const VolumeSegment& segment, float t);
 
-    bool isEmpty() const { return lobes_.empty(); }
+    /// Who chooses among lobes, by their sigma_s: a channel, 0 to 2, or the mean of them.
+    static constexpr int kMean = 3;
+
+    /// Whether a chooser finds nothing that scatters.
+    bool isEmpty(int chooser = kMean) const { return !(total_[chooser] > 0); }
     /// Sum of sigma_s p between propagation directions of this cosine, mm^-1 sr^-1.
     Rgb value(float cosTheta) const;
-    /// Density (sr^-1) with which sample() makes a direction.
-    float pdf(float cosTheta) const;
-    /// A propagation direction after scattering from `along`; not empty.
-    Vec3 sample(const Vec3& along, float uLobe, const Vec2& u) const;
+    /// Density (sr^-1) with which sample() makes a direction of this cosine.
+    float pdf(float cosTheta, int chooser = kMean) const;
+    /// A propagation direction after scattering from `along`; not empty for the chooser.
+    Vec3 sample(const Vec3& along, float uLobe, const Vec2& u, int chooser = kMean) const;
 
 private:
     struct Lobe {
-        Rgb sigmaS;
+        Vec4 sigmaS;  // by chooser
         float g;
-        float share;  // of the mean sigma_s
     };
     std::vector<Lobe> lobes_;
+    Vec4 total_{0};
 };
 
 }  // namespace sss

@@ -101,7 +101,7 @@ bool VolumePath::scatterInVolumes(const VolumeSegment& segment, float distanceMm
     const VolumeLobes lobes(segment, distanceMm);
     const float uPick = sampler_.next1D(), uLobe = sampler_.next1D();
     const Vec2 uLight = sampler_.next2D(), uPhase = sampler_.next2D();
-    if (lobes.isEmpty()) return false;
+    if (lobes.isEmpty(weight_.hero())) return false;
     ++counts_.scatterings;
     settle(Layer::Surface);
     const Vec3 along = ray_.direction, place = ray_.at(distanceMm);
@@ -112,11 +112,12 @@ bool VolumePath::scatterInVolumes(const VolumeSegment& segment, float distanceMm
         add(lobes.value(cosine) * direct.radianceOverPdf * weight *
             transmittedShare(world_, media_, {place, -1}, direct, counts_.rays));
     }
-    startFrom(place, place, lobes.sample(along, uLobe, uPhase));
-    const float cosine = glm::dot(along, ray_.direction), pdf = lobes.pdf(cosine);
-    if (!(pdf > 0)) return false;
-    weight_.scale(lobes.value(cosine) / pdf);
-    origin_ = {place, pdf};
+    startFrom(place, place, lobes.sample(along, uLobe, uPhase, weight_.hero()));
+    const float cosine = glm::dot(along, ray_.direction);
+    const Rgb density(lobes.pdf(cosine, 0), lobes.pdf(cosine, 1), lobes.pdf(cosine, 2));
+    if (!(density[weight_.hero()] > 0)) return false;
+    weight_.choose(lobes.value(cosine), density);
+    origin_ = {place, lobes.pdf(cosine)};
     return survives();
 }
 
