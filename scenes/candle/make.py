@@ -19,7 +19,7 @@ WICK_RADIUS = 0.75
 
 # The flame's box, centred on x = z = 0, and its lattice.
 FLAME_WIDTH, FLAME_BOTTOM, FLAME_TOP = 16.0, -3.5, 34.0
-NODES = (33, 61, 33)
+NODES = (25, 47, 25)
 
 
 def smooth(a, b, x):

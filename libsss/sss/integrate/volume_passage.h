@@ -19,11 +19,12 @@ struct PathStretch {
 
 /// Attenuation and emission exactly, and light scattered once [Koutajoki Eq. 4], unless the stretch
 /// begins after such a scattering: of light that volumes scatter more than once only the integrator
-/// "volume" knows. One place on the stretch is sampled, by its distance from the light chosen
-/// (equiangular [Kulla and Fajardo 2012, "Importance Sampling Techniques for Path Tracing in
-/// Participating Media"]) or by the extinction of one of the channels, balanced; there, light is
-/// found by light sampling and by the phase function, weighted by the power heuristic. `incoming`
-/// is the radiance that arrives at the place; `rays` counts shadow rays.
+/// "volume" knows. A light is picked and looked for from a place where it shines, sampled by its
+/// distance from the light (equiangular [Kulla and Fajardo 2012, "Importance Sampling Techniques
+/// for Path Tracing in Participating Media"]) or by the extinction of one of the channels,
+/// balanced; at another place, sampled by extinction, the phase function looks for light. What both
+/// find is weighted by the power heuristic. `incoming` is the radiance that arrives at the place;
+/// `rays` counts shadow rays.
 VolumePassage passVolumes(const World& world, const PathStretch& stretch, Sampler& sampler,
                           const IncomingRadiance& incoming, std::uint64_t& rays);
 

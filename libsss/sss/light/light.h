@@ -32,6 +32,15 @@ public:
     virtual bool isUniform() const { return false; }
     /// Its middle, if it has one: whence its light falls off with distance.
     virtual std::optional<Vec3> centre() const { return {}; }
+    /// mm along a ray; empty if begin >= end.
+    struct Stretch {
+        float begin = 0, end = 0;
+    };
+    /// The part of a stretch that its light can reach: all of it, where that is not easily said.
+    virtual Stretch litStretch(const Vec3& /*origin*/, const Vec3& /*direction*/,
+                               const Stretch& within) const {
+        return within;
+    }
     /// The index of the volume (World::volumes) whose emission it stands for; -1 for others.
     virtual int volume() const { return -1; }
     /// What encloses a light that seen() finds at a finite distance; empty for others.
