@@ -35,7 +35,7 @@ class Runs:
         self.runs = []
         for angle in (0.35, 1.25, 1.62, 2.7, 3.9, 4.45, 5.5):
             self.runs.append((angle, rng.uniform(0.07, 0.12), rng.uniform(14, 42),
-                              rng.uniform(1.2, 2.0)))
+                              rng.uniform(1.8, 3.0)))
 
     def bulge(self, angle, y):
         """How far the side stands out at an angle and a height (0 at the rim, down to -HEIGHT)."""
@@ -84,14 +84,14 @@ def revolve(points, place):
         for k in range(AROUND):
             a, b = ring * AROUND + k, ring * AROUND + (k + 1) % AROUND
             c, d = a + AROUND, b + AROUND
-            faces += [(a, b, d), (a, d, c)]
+            faces += [(a, d, b), (a, c, d)]
     for ring, turn in ((0, False), (len(points) - 1, True)):
         start = ring * AROUND
         y = sum(vertices[start + k][1] for k in range(AROUND)) / AROUND
         vertices.append((0.0, y, 0.0))
         for k in range(AROUND):
             a, b = start + k, start + (k + 1) % AROUND
-            faces.append((len(vertices) - 1, a, b) if turn else (len(vertices) - 1, b, a))
+            faces.append((len(vertices) - 1, b, a) if turn else (len(vertices) - 1, a, b))
     return vertices, faces
 
 
