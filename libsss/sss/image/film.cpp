@@ -7,6 +7,8 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
 
 namespace sss {
@@ -70,37 +72,25 @@ const std::vector<FilmLayer> kLayers{
      [](const FilmPixel& p, std::span<float> out) { out[0] = static_cast<float>(p.samples); }},
 };
 
-float lowest(const Rgb& c) { return std::min(c.x, std::min(c.y, c.z)); }
+// A sample's numbers in the order of FilmSample: the first kNotNegative must not be negative, the
+// first kFinite must be finite, the last is the depth.
+using Numbers = std::array<float, 17>;
+static_assert(sizeof(Numbers) == sizeof(FilmSample));
+constexpr std::size_t kNotNegative = 13, kFinite = 16;
 
-// Whether a sample can be kept, of which `radiance` is the sum. A sum in double does not overflow,
-// so it is finite if every part is; NaN and infinity pass through.
-bool isUsable(const FilmSample& s, const DRgb& radiance) {
-    const DVec3 all = radiance + DRgb(s.albedo) + DVec3(s.normal);
-    const float least = std::min(std::min(lowest(s.diffusion), lowest(s.single)),
-                                 std::min(lowest(s.surface), lowest(s.albedo)));
-    return std::isfinite(all.x + all.y + all.z + static_cast<double>(s.alpha)) && least >= 0 &&
-           s.alpha >= 0 && !std::isnan(s.depth);
-}
-
-void gather(const FilmSample& sample, FilmPixel& pixel) {
-    const DRgb diffusion(sample.diffusion), single(sample.single), surface(sample.surface);
-    const DRgb sum = diffusion + single + surface;
-    if (!isUsable(sample, sum)) {
-        ++pixel.dropped;
-        return;
-    }
-    ++pixel.samples;
-    pixel.surface += surface;
-    pixel.squares += sum * sum;
-    pixel.diffusion += diffusion;
-    pixel.single += single;
-    pixel.albedo += DRgb(sample.albedo);
-    pixel.normal += DVec3(sample.normal);
-    pixel.alpha += static_cast<double>(sample.alpha);
-    if (std::isfinite(sample.depth)) {
-        ++pixel.hits;
-        pixel.depth += static_cast<double>(sample.depth);
-    }
+bool isUsable(const Numbers& numbers) {
+    constexpr std::size_t kLanes = 4;
+    std::array<float, kLanes> probes{}, least{};
+    for (std::size_t first = 0; first < kFinite; first += kLanes)
+        for (std::size_t lane = 0; lane < kLanes; ++lane) {
+            const float number = numbers[first + lane];
+            probes[lane] += number * 0.0f;  // NaN unless finite
+            if (first + kLanes <= kNotNegative) least[lane] = std::min(least[lane], number);
+        }
+    const float probe = (probes[0] + probes[1]) + (probes[2] + probes[3]);
+    const float lowest = std::min(std::min(least[0], least[1]), std::min(least[2], least[3]));
+    return probe == 0 && std::min(lowest, numbers[kNotNegative - 1]) >= 0 &&
+           !std::isnan(numbers[kFinite]);
 }
 
 const FilmLayer* layerNamed(const std::string& name) {
@@ -135,9 +125,28 @@ ImageLayer filled(const FilmLayer& layer, const FilmPixel& pixel, std::size_t co
 std::span<const FilmLayer> filmLayers() { return kLayers; }
 
 void FilmPixel::add(std::span<const FilmSample> taken) {
-    FilmPixel sum = *this;  // in registers
-    for (const FilmSample& sample : taken) gather(sample, sum);
-    *this = sum;
+    std::array<double, kFinite> sums{};  // apart, so that the loop over them is a few instructions
+    for (const FilmSample& sample : taken) {
+        const auto numbers = std::bit_cast<Numbers>(sample);
+        if (!isUsable(numbers)) {
+            ++dropped;
+            continue;
+        }
+        ++samples;
+        for (std::size_t i = 0; i < kFinite; ++i) sums[i] += static_cast<double>(numbers[i]);
+        const DRgb radiance = DRgb(sample.diffusion) + DRgb(sample.single) + DRgb(sample.surface);
+        squares += radiance * radiance;
+        if (std::isfinite(sample.depth)) {
+            ++hits;
+            depth += static_cast<double>(sample.depth);
+        }
+    }
+    diffusion += DRgb(sums[0], sums[1], sums[2]);
+    single += DRgb(sums[3], sums[4], sums[5]);
+    surface += DRgb(sums[6], sums[7], sums[8]);
+    alpha += sums[9];
+    albedo += DRgb(sums[10], sums[11], sums[12]);
+    normal += DVec3(sums[13], sums[14], sums[15]);
 }
 
 Film::Film(int width, int height, const std::vector<std::string>& layers,

@@ -2,13 +2,12 @@
 
 namespace sss {
 
-Rgb arrivingShare(const World& world, const Ray& shadow, const DirectSample& sample,
-                  std::uint64_t& rays) {
+Rgb arrivingShare(const World& world, const Ray& shadow, int volume, std::uint64_t& rays) {
     ++rays;
-    if (sample.volume >= 0) {
+    if (volume >= 0) {
         Hit hit;
         const float end = world.rays().intersect(shadow, hit) ? hit.t : shadow.tMax;
-        return world.volumesAlong(shadow, end).emission(static_cast<std::size_t>(sample.volume));
+        return world.volumesAlong(shadow, end).emission(static_cast<std::size_t>(volume));
     }
     if (world.rays().occluded(shadow)) return Rgb(0);
     return world.hasVolumes() ? world.volumesAlong(shadow, shadow.tMax).transmittance() : Rgb(1);

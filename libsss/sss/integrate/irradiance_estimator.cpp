@@ -21,7 +21,7 @@ Rgb IrradianceEstimator::direct(const SurfaceHit& hit, const Vec3& normal, const
     if (!(light.pdf > 0)) return Rgb(0);
     const float cosine = glm::dot(light.direction, normal);
     if (cosine <= 0 || glm::dot(light.direction, hit.geometricNormal) <= 0) return Rgb(0);
-    const Rgb share = arrivingShare(world_, shadowRay(from, light), light, counts.rays);
+    const Rgb share = arrivingShare(world_, from, light, counts.rays);
     if (isZero(share)) return Rgb(0);
     const float weight = light.isDelta ? 1.0f : powerHeuristic(light.pdf, cosine / kPiF);
     return share * light.radianceOverPdf *

@@ -6,19 +6,19 @@ namespace {
 // A shadow ray stops short of the light by this share, for lights that are geometry.
 constexpr float kShadowShare = 1.0f - 1e-4f;
 
-// Calls visit(weighted radiance, distance from the ray's origin) for each light along a ray.
+// Calls visit(weighted radiance, distance from the ray's origin) for each light along a ray of
+// length `distance`, and for some that lie behind that.
 template <typename Visit>
-void forEachSeen(const World& world, const Ray& ray, const ScatterOrigin& origin,
+void forEachSeen(const World& world, const Ray& ray, float distance, const ScatterOrigin& origin,
                  const Visit& visit) {
     const bool isSampled = std::isfinite(origin.pdf);
-    const Vec3 from = isSampled ? origin.sampledFrom : ray.origin;
+    const Vec3& from = isSampled ? origin.sampledFrom : ray.origin;
     const float behind = isSampled ? glm::dot(ray.origin - from, ray.direction) : 0.0f;
-    for (std::size_t k = 0; k < world.lights().size(); ++k) {
-        const Light& light = *world.lights()[k];
-        if (light.isDelta()) continue;
-        const Light::Seen seen = light.seen(from, ray.direction);
+    for (const World::VisibleLight& visible : world.visibleLights()) {
+        if (visible.isInfinite && std::isfinite(distance)) continue;
+        const Light::Seen seen = visible.light->seen(from, ray.direction);
         if (isZero(seen.radiance)) continue;
-        visit(seen.radiance * powerHeuristic(origin.pdf, seen.pdf * world.picker().pmf(k)),
+        visit(seen.radiance * powerHeuristic(origin.pdf, seen.pdf * visible.pmf),
               seen.distance - behind);
     }
 }
@@ -72,7 +72,7 @@ Ray shadowRay(const Vec3& from, const DirectSample& sample) {
 Rgb radianceOfLights(const World& world, const Ray& ray, float distance,
                      const ScatterOrigin& origin) {
     Rgb sum(0);
-    forEachSeen(world, ray, origin, [&](const Rgb& radiance, float lightDistance) {
+    forEachSeen(world, ray, distance, origin, [&](const Rgb& radiance, float lightDistance) {
         if (lightDistance > distance) return;
         sum += world.hasVolumes()
                    ? radiance * world.volumesAlong(ray, lightDistance).transmittance()
@@ -85,7 +85,8 @@ Rgb radianceOfOpenLights(const World& world, const Ray& ray, const ScatterOrigin
                          std::uint64_t& rays) {
     Rgb sum(0);
     bool isNear = false;
-    forEachSeen(world, ray, origin, [&](const Rgb& radiance, float lightDistance) {
+    constexpr float kInfinity = std::numeric_limits<float>::infinity();
+    forEachSeen(world, ray, kInfinity, origin, [&](const Rgb& radiance, float lightDistance) {
         sum += radiance;
         isNear = isNear || std::isfinite(lightDistance);
     });

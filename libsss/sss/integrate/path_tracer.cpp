@@ -1,12 +1,11 @@
 #include "sss/integrate/path_tracer.h"
 
 #include "sss/base/assert.h"
+#include "sss/base/inline_vector.h"
 #include "sss/integrate/arriving_light.h"
 #include "sss/integrate/single_scatter.h"
 
 #include <algorithm>
-#include <array>
-#include <optional>
 
 namespace sss {
 namespace {
@@ -44,30 +43,29 @@ Bsdf PathTracer::bsdfAt(const SurfaceHit& hit, const Vec3& wo) const {
                 fields_.empty() ? Bsdf::BodyShading::DiffuseLimit : Bsdf::BodyShading::Surface);
 }
 
-PathTracer::OpenLight PathTracer::openLight(const SurfaceHit& hit, const Bsdf& bsdf,
-                                            Sampler& sampler) const {
+Rgb PathTracer::openLight(const SurfaceHit& hit, const Bsdf& bsdf, Sampler& sampler,
+                          ShadowRay& shadow) const {
     if (!bsdf.hasSmoothPart()) {
         sampler.skip(2);
-        return {};
+        return Rgb(0);
     }
     const Vec3 from = world_.leave(hit, bsdf.geometricNormal());
     const DirectSample direct = sampleDirect(world_, from, bsdf.geometricNormal(), sampler);
-    if (!(direct.pdf > 0)) return {};
+    if (!(direct.pdf > 0)) return Rgb(0);
     const Rgb value = bsdf.evaluate(direct.direction);
-    if (isZero(value)) return {};
+    if (isZero(value)) return Rgb(0);
     const float weight =
         direct.isDelta ? 1.0f : powerHeuristic(direct.pdf, bsdf.pdf(direct.direction));
-    return {value * direct.radianceOverPdf * weight, shadowRay(from, direct), direct};
+    shadow = {shadowRay(from, direct), direct.volume};
+    return value * direct.radianceOverPdf * weight;
 }
 
 Rgb PathTracer::directLight(const SurfaceHit& hit, const Bsdf& bsdf, Sampler& sampler,
                             PathCounts& counts) const {
-    const OpenLight light = openLight(hit, bsdf, sampler);
-    return isZero(light.radiance) ? Rgb(0) : arriving(light, counts);
-}
-
-Rgb PathTracer::arriving(const OpenLight& light, PathCounts& counts) const {
-    return light.radiance * arrivingShare(world_, light.shadow, light.sample, counts.rays);
+    ShadowRay shadow;
+    const Rgb light = openLight(hit, bsdf, sampler, shadow);
+    if (isZero(light)) return Rgb(0);
+    return light * arrivingShare(world_, shadow.ray, shadow.volume, counts.rays);
 }
 
 VolumePassage PathTracer::throughVolumes(const PathStretch& stretch, int bounces, Sampler& sampler,
@@ -81,14 +79,17 @@ VolumePassage PathTracer::throughVolumes(const PathStretch& stretch, int bounces
         counts.rays);
 }
 
-void PathTracer::seeThroughVolumes(const PathStretch& stretch, Sampler& sampler, FilmSample& seen,
-                                   PathCounts& counts) const {
-    const VolumePassage passage =
-        throughVolumes(stretch, world_.scene().quality.bounces, sampler, counts);
-    seen.diffusion *= passage.transmittance;
-    seen.single *= passage.transmittance;
-    seen.surface = seen.surface * passage.transmittance + passage.radiance;
-    seen.alpha = std::max(seen.alpha, 1 - meanComponent(passage.transmittance));
+void PathTracer::putInFront(const Ray& ray, float distance, Sampler& sampler, FilmSample& seen,
+                            PathCounts& counts) const {
+    if (world_.hasVolumes()) {
+        const VolumePassage passage =
+            throughVolumes({ray, distance, {}}, world_.scene().quality.bounces, sampler, counts);
+        seen.diffusion *= passage.transmittance;
+        seen.single *= passage.transmittance;
+        seen.surface = seen.surface * passage.transmittance + passage.radiance;
+        seen.alpha = std::max(seen.alpha, 1 - meanComponent(passage.transmittance));
+    }
+    seen.surface += radianceOfLights(world_, ray, distance, {});
 }
 
 Rgb PathTracer::diffusion(const SurfaceHit& hit, const Bsdf& bsdf, PathCounts& counts) const {
@@ -128,13 +129,13 @@ bool PathTracer::scatter(const SurfaceHit& hit, const Bsdf& bsdf, Sampler& sampl
     return true;
 }
 
-Rgb PathTracer::incoming(Ray ray, ScatterOrigin origin, int bounces, Sampler& sampler,
+Rgb PathTracer::followed(Ray ray, ScatterOrigin origin, int bounces, Sampler& sampler,
                          PathCounts& counts) const {
     Rgb sum(0), throughput(1);
     const bool afterVolume = origin.afterVolume;
     bool isWide = false;
     for (int depth = 0;; ++depth) {
-        if (depth >= bounces && !world_.hasEmitters() && !world_.hasVolumes())
+        if (depth >= bounces && !world_.hasUnseenLight())
             return sum + throughput * radianceOfOpenLights(world_, ray, origin, counts.rays);
         Hit found;
         ++counts.rays;
@@ -171,12 +172,12 @@ Rgb PathTracer::incoming(Ray ray, ScatterOrigin origin, int bounces, Sampler& sa
     }
 }
 
-FilmSample PathTracer::shade(const FirstSurface& surface, const Ray& ray, Sampler& sampler,
-                             PathCounts& counts) const {
+void PathTracer::shade(const FirstSurface& surface, const Ray& ray, Sampler& sampler,
+                       FilmSample& seen, PathCounts& counts) const {
     const SurfaceHit& hit = surface.hit;
     const Bsdf& bsdf = surface.bsdf;
     const int bounces = world_.scene().quality.bounces;
-    FilmSample seen;
+    seen.diffusion = seen.single = seen.surface = Rgb(0);
     seen.alpha = 1;
     seen.depth = hit.distance * glm::dot(ray.direction, world_.camera().forward());
     seen.normal = bsdf.shadingNormal();
@@ -194,53 +195,57 @@ FilmSample PathTracer::shade(const FirstSurface& surface, const Ray& ray, Sample
     Ray next;
     ScatterOrigin origin;
     Rgb throughput(1);
-    if (!scatter(hit, bsdf, sampler, next, origin, throughput)) return seen;
+    if (!scatter(hit, bsdf, sampler, next, origin, throughput)) return;
     // A dielectric reflects 4 % of what it sees: not every sample needs to look.
     const float survival =
         std::clamp(kReflectionEffort * maxComponent(throughput), kLeastReflectionShare, 1.0f);
-    if (sampler.next1D() < survival)
-        reflected += throughput / survival * incoming(next, origin, bounces, sampler, counts);
-    return seen;
+    if (survival >= 1)
+        sampler.skip();
+    else if (!(sampler.next1D() < survival))
+        return;
+    reflected += throughput / survival * incoming(next, origin, bounces, sampler, counts);
 }
 
 void PathTracer::trace(std::span<const Ray> rays, std::span<Sampler> samplers,
                        std::span<FilmSample> seen, PathCounts& counts) const {
     SSS_ASSERT_LE(rays.size(), kMostViews);
-    std::array<Hit, kMostViews> found;
-    world_.rays().intersectTogether(rays, found);
+    InlineVector<Hit, kMostViews> found;
+    for (std::size_t i = 0; i < rays.size(); ++i) found.emplace_back();
+    world_.rays().intersectTogether(rays, found.span());
     counts.cameraSamples += rays.size();
     counts.rays += rays.size();
 
-    std::array<std::optional<FirstSurface>, kMostViews> surfaces;
-    std::array<Ray, kMostViews> shadows;
-    std::array<FirstSurface*, kMostViews> lit;  // by shadow ray
-    std::size_t shadowCount = 0;
+    InlineVector<FirstSurface, kMostViews> surfaces;
+    InlineVector<Ray, kMostViews> shadows;
+    InlineVector<FirstSurface*, kMostViews> lit;  // by shadow ray
     for (std::size_t i = 0; i < rays.size(); ++i) {
-        if (found[i].geometry == kNoGeometry) continue;
-        const SurfaceHit hit = world_.surfaceAt(found[i]);
-        FirstSurface& surface =
-            surfaces[i].emplace(FirstSurface{hit, bsdfAt(hit, -rays[i].direction)});
-        const OpenLight light = openLight(hit, surface.bsdf, samplers[i]);
-        if (isZero(light.radiance)) continue;
-        if (world_.hasVolumes()) {
-            surface.direct = arriving(light, counts);
+        if (found[i].geometry == kNoGeometry) {
+            seen[i] = {};
+            putInFront(rays[i], kInfinity, samplers[i], seen[i], counts);
             continue;
         }
-        surface.direct = light.radiance;
-        shadows[shadowCount] = light.shadow;
-        lit[shadowCount++] = &surface;
+        FirstSurface& surface = surfaces.emplace_back(*this, found[i], -rays[i].direction, i);
+        ShadowRay shadow;
+        const Rgb light = openLight(surface.hit, surface.bsdf, samplers[i], shadow);
+        if (isZero(light)) continue;
+        surface.direct = light;
+        if (world_.hasVolumes()) {
+            surface.direct *= arrivingShare(world_, shadow.ray, shadow.volume, counts.rays);
+            continue;
+        }
+        shadows.emplace_back(shadow.ray);
+        lit.emplace_back(&surface);
     }
-    const std::uint64_t occluded =
-        world_.rays().occludedTogether(std::span(shadows).first(shadowCount));
-    counts.rays += shadowCount;
-    for (std::size_t k = 0; k < shadowCount; ++k)
+    const std::uint64_t occluded = world_.rays().occludedTogether(
+        shadows.span(),
+        world_.hasWideLights() ? RayScene::Together::Parted : RayScene::Together::Parallel);
+    counts.rays += shadows.size();
+    for (std::size_t k = 0; k < lit.size(); ++k)
         if (occluded >> k & 1) lit[k]->direct = Rgb(0);
-    for (std::size_t i = 0; i < rays.size(); ++i) {
-        const float distance = surfaces[i] ? surfaces[i]->hit.distance : kInfinity;
-        seen[i] = surfaces[i] ? shade(*surfaces[i], rays[i], samplers[i], counts) : FilmSample{};
-        if (world_.hasVolumes())
-            seeThroughVolumes({rays[i], distance, {}}, samplers[i], seen[i], counts);
-        seen[i].surface += radianceOfLights(world_, rays[i], distance, {});
+    for (const FirstSurface& surface : surfaces) {
+        const std::size_t i = surface.view;
+        shade(surface, rays[i], samplers[i], seen[i], counts);
+        putInFront(rays[i], surface.hit.distance, samplers[i], seen[i], counts);
     }
 }
 

@@ -54,8 +54,12 @@ public:
 
     /// Radiance that arrives along a ray: lights (weighted by `origin`), and surfaces as long as
     /// `bounces` allows (0 = lights and emitters only).
-    Rgb incoming(Ray ray, ScatterOrigin origin, int bounces, Sampler& sampler,
-                 PathCounts& counts) const;
+    Rgb incoming(const Ray& ray, const ScatterOrigin& origin, int bounces, Sampler& sampler,
+                 PathCounts& counts) const {
+        if (bounces <= 0 && !world_.hasUnseenLight())
+            return radianceOfOpenLights(world_, ray, origin, counts.rays);
+        return followed(ray, origin, bounces, sampler, counts);
+    }
 
     /// Light that reaches a surface straight from a light and is scattered there, by light
     /// sampling, weighted against sampling the BSDF.
@@ -66,28 +70,34 @@ private:
     Rgb diffusion(const SurfaceHit& hit, const Bsdf& bsdf, PathCounts& counts) const;
     Rgb single(const SurfaceHit& hit, const Bsdf& bsdf, const Vec3& wo, int bounces,
                Sampler& sampler, PathCounts& counts) const;
-    /// A light sample: what it brings if nothing stands on its ray.
-    struct OpenLight {
-        Rgb radiance{0.0f};
-        Ray shadow;
-        DirectSample sample;
+    /// The same through surfaces.
+    Rgb followed(Ray ray, ScatterOrigin origin, int bounces, Sampler& sampler,
+                 PathCounts& counts) const;
+    /// The way to a light.
+    struct ShadowRay {
+        Ray ray;
+        int volume = -1;  ///< as in DirectSample
     };
-    /// What of it arrives.
-    Rgb arriving(const OpenLight& light, PathCounts& counts) const;
-    OpenLight openLight(const SurfaceHit& hit, const Bsdf& bsdf, Sampler& sampler) const;
-    /// What the camera sees.
+    /// What a light sample brings if nothing stands on the way `shadow`, which is set unless that
+    /// is zero.
+    Rgb openLight(const SurfaceHit& hit, const Bsdf& bsdf, Sampler& sampler,
+                  ShadowRay& shadow) const;
+    /// What the camera sees. Made in place: copying what was just written stalls the processor.
     struct FirstSurface {
+        FirstSurface(const PathTracer& tracer, const Hit& found, const Vec3& wo, std::size_t number)
+            : hit(tracer.world_.surfaceAt(found)), bsdf(tracer.bsdfAt(hit, wo)), view(number) {}
         SurfaceHit hit;
         Bsdf bsdf;
+        std::size_t view;  ///< which of those traced together
         Rgb direct{0.0f};
     };
+    void shade(const FirstSurface& surface, const Ray& ray, Sampler& sampler, FilmSample& seen,
+               PathCounts& counts) const;
+    /// Puts volumes and lights between the camera and what is seen, which is `distance` away.
+    void putInFront(const Ray& ray, float distance, Sampler& sampler, FilmSample& seen,
+                    PathCounts& counts) const;
     VolumePassage throughVolumes(const PathStretch& stretch, int bounces, Sampler& sampler,
                                  PathCounts& counts) const;
-    /// Puts what volumes do between the camera and what is seen into it.
-    void seeThroughVolumes(const PathStretch& stretch, Sampler& sampler, FilmSample& seen,
-                           PathCounts& counts) const;
-    FilmSample shade(const FirstSurface& surface, const Ray& ray, Sampler& sampler,
-                     PathCounts& counts) const;
     Bsdf bsdfAt(const SurfaceHit& hit, const Vec3& wo) const;
     /// Draws the next ray; false if the path ends.
     bool scatter(const SurfaceHit& hit, const Bsdf& bsdf, Sampler& sampler, Ray& ray,

@@ -70,19 +70,19 @@ private:
         const std::uint64_t seed = combineSeeds(
             seed_, static_cast<std::uint64_t>(pixel.y) << 32 | static_cast<std::uint64_t>(pixel.x));
         const Vec2 centre(static_cast<float>(pixel.x) + 0.5f, static_cast<float>(pixel.y) + 0.5f);
-        for (std::size_t i = 0; i < count; ++i) {
-            Sampler& sampler = room.samplers[i];
-            sampler =
+        for (std::size_t i = 0; i < count; ++i)
+            room.samplers[i] =
                 Sampler(seed, static_cast<std::uint32_t>(first) + static_cast<std::uint32_t>(i));
-            const Vec2 place = centre + filter_.sample(sampler.next2D());
-            Vec2 lens(0.5f);
-            if (camera_.hasLens())
-                lens = sampler.next2D();
-            else
-                sampler.skip();
-            room.rays[i] = camera_.ray(place, lens);
-        }
-        integrator_.traceAll(std::span(room.rays).first(count), room.samplers,
+        const auto samplers = std::span(room.samplers).first(count);
+        std::array<Vec2, Integrator::kMostViews> places, lenses{};
+        Sampler::next2D(samplers, places);
+        if (camera_.hasLens())
+            Sampler::next2D(samplers, lenses);
+        else
+            for (Sampler& sampler : samplers) sampler.skip();
+        for (std::size_t i = 0; i < count; ++i)
+            room.rays[i] = camera_.ray(centre + filter_.sample(places[i]), lenses[i]);
+        integrator_.traceAll(std::span(room.rays).first(count), samplers,
                              std::span(room.seen).first(count), room.counts);
     }
 

@@ -105,8 +105,7 @@ private:
         if (!exit || exit->distance >= direct.distance) return Rgb(0);
         DirectSample rest = direct;
         rest.distance -= exit->distance;
-        const Rgb arriving =
-            arrivingShare(world_, shadowRay(exit->outside, rest), rest, counts.rays);
+        const Rgb arriving = arrivingShare(world_, exit->outside, rest, counts.rays);
         if (isZero(arriving)) return Rgb(0);
         const float weight =
             direct.isDelta

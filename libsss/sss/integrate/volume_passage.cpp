@@ -114,7 +114,7 @@ Rgb scatteredFromLight(const World& world, const VolumeSegment& segment, const R
     const float cosine = glm::dot(direct.direction, ray.direction);
     const float weight = direct.isDelta ? 1.0f : powerHeuristic(direct.pdf, lobes.pdf(cosine));
     return place.weight * lobes.value(cosine) * direct.radianceOverPdf * weight *
-           arrivingShare(world, shadowRay(from, direct), direct, rays);
+           arrivingShare(world, from, direct, rays);
 }
 
 // By the phase function: lights that it finds better, and light from surfaces.

@@ -167,6 +167,9 @@ void World::makeLights() {
         for (const int object : body.objects)
             for (const Vec3& p : parts_[static_cast<std::size_t>(object)].positions) target.add(p);
     picker_.emplace(lights_, target.isEmpty() ? bounds_ : target);
+    for (std::size_t k = 0; k < scene_.lights.size(); ++k)  // emitters come after them
+        if (!lights_[k]->isDelta())
+            visibleLights_.push_back({lights_[k].get(), picker_->pmf(k), lights_[k]->isInfinite()});
 }
 
 void World::addGeometryTo(Hasher& hasher, std::size_t object) const {

@@ -13,6 +13,7 @@
 
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace sss {
@@ -55,11 +56,21 @@ public:
     }
     const std::vector<std::unique_ptr<Light>>& lights() const { return lights_; }
     const LightPicker& picker() const { return *picker_; }
+    /// A light that Light::seen() can find, and the probability with which picker() picks it.
+    struct VisibleLight {
+        const Light* light;
+        float pmf;
+        bool isInfinite;
+    };
+    std::span<const VisibleLight> visibleLights() const { return visibleLights_; }
+    /// Whether any light is more than a point or a direction.
+    bool hasWideLights() const { return hasEmitters_ || !visibleLights_.empty(); }
     /// The light that an object's faces are, if they are an emitter.
     const MeshLight* emitter(int object) const {
         return emitters_[static_cast<std::size_t>(object)];
     }
-    bool hasEmitters() const { return hasEmitters_; }
+    /// Whether a ray may find light that Light::seen() does not: of surfaces and volumes.
+    bool hasUnseenLight() const { return hasEmitters_ || hasVolumes(); }
     /// Its index among lights().
     std::size_t emitterIndex(int object) const {
         return emitterIndices_[static_cast<std::size_t>(object)];
@@ -114,6 +125,7 @@ private:
     std::vector<Part> parts_;  // by object
     std::optional<RayScene> rays_;
     std::vector<std::unique_ptr<Light>> lights_;
+    std::vector<VisibleLight> visibleLights_;
     std::vector<const MeshLight*> emitters_;   // by object
     std::vector<std::size_t> emitterIndices_;  // by object
     bool hasEmitters_ = false;
