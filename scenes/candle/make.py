@@ -19,7 +19,7 @@ WICK_RADIUS = 0.75
 
 # The flame's box, centred on x = z = 0, and its lattice.
 FLAME_WIDTH, FLAME_BOTTOM, FLAME_TOP = 16.0, -3.5, 34.0
-NODES = (25, 47, 25)
+NODES = (29, 53, 29)
 
 
 def smooth(a, b, x):
@@ -161,22 +161,30 @@ def flame(x, y, z):
     if h <= 0 or h >= 1:
         return 0.0, 0.0, 0.0, 0.0
     # A drop: widest at a quarter of its height, drawn out to a tip that leans a little.
-    half = 5.6 * math.sin(math.pi * min(1.0, h ** 0.56)) ** 0.9 * (1 - 0.35 * h)
+    half = 6.6 * math.sin(math.pi * min(1.0, h ** 0.56)) ** 0.9 * (1 - 0.35 * h)
     lean = 0.8 + 1.3 * h * h * math.sin(2.2 * h)
     r = math.hypot(x - lean, z) / max(half, 1e-3)
     if r >= 1:
         return 0.0, 0.0, 0.0, 0.0
-    edge = 1 - smooth(0.45, 1.0, r)
+    edge = (1 - r * r) ** 2
     # Soot glows yellow-white in the upper part, above the dark zone around the wick; it thins out
     # and cools to orange at the tip and the edge. At the foot burns a blue cup.
     dark = 1 - 0.85 * (1 - smooth(0.0, 0.85, r)) * (1 - smooth(0.24, 0.42, h))
     soot = edge * dark * smooth(0.08, 0.36, h) * (1 - smooth(0.8, 1.0, h))
-    cool = smooth(0.35, 1.0, h) * 0.55 + 0.45 * smooth(0.3, 1.0, r)
+    cool = smooth(0.35, 1.0, h) * 0.5 + 0.5 * smooth(0.3, 1.0, r)
     blue = (1 - smooth(0.06, 0.30, h)) * smooth(0.25, 0.75, r) * (1 - smooth(0.8, 1.0, r))
     red = soot + 0.012 * blue
     green = soot * (0.62 - 0.26 * cool) + 0.03 * blue
     blue = soot * (0.24 - 0.20 * cool) + 0.10 * blue
     return soot, red, green, blue
+
+
+def around_node(x, y, z):
+    """The mean over a cell around a node, so that the lattice does not show."""
+    dx, dy = FLAME_WIDTH / (NODES[0] - 1), (FLAME_TOP - FLAME_BOTTOM) / (NODES[1] - 1)
+    values = [flame(x + a * dx, y + b * dy, z + c * dx)
+              for a in (-0.33, 0, 0.33) for b in (-0.33, 0, 0.33) for c in (-0.33, 0, 0.33)]
+    return [sum(v) / len(values) for v in zip(*values)]
 
 
 def make_flame():
@@ -185,7 +193,7 @@ def make_flame():
     for k in range(nz):
         for j in range(ny):
             for i in range(nx):
-                values += struct.pack("<4f", *flame(
+                values += struct.pack("<4f", *around_node(
                     FLAME_WIDTH * (i / (nx - 1) - 0.5),
                     FLAME_BOTTOM + (FLAME_TOP - FLAME_BOTTOM) * j / (ny - 1),
                     FLAME_WIDTH * (k / (nz - 1) - 0.5)))
