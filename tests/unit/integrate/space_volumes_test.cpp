@@ -1,3 +1,4 @@
+#include "sss/base/error.h"
 #include "sss/integrate/irradiance_estimator.h"
 #include "sss/optics/phase.h"
 #include "unit/integrate/volume_experiment.h"
@@ -250,6 +251,23 @@ TEST(SpaceVolumes, BodiesAreSeenThroughSmoke) {
     const DRgb clear = seen(false), dimmed = seen(true);
     for (int c = 0; c < 3; ++c)
         EXPECT_NEAR(dimmed[c], clear[c] * std::exp(-0.2 * (c + 1)), 1e-5 * clear[c]);
+}
+
+TEST(SpaceVolumes, NeedAnInside) {
+    const TemporaryFolder folder;
+    std::ofstream(folder / "flag.obj") << "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+    SceneMaker maker;
+    floorAt(maker, 0, 0.5f);
+    addVolume(maker, greyVolume(1, 0), MeshFileShape{folder / "flag.obj"}).line = 5;
+    try {
+        maker.world();
+        FAIL() << "accepted";
+    } catch (const Error& error) {
+        EXPECT_EQ(
+            std::string(error.what()),
+            "test.json:5:0: the surface of the volume \"v0\" is not closed, so that it has no "
+            "inside; close the mesh, or take a box or a sphere around it");
+    }
 }
 
 }  // namespace
