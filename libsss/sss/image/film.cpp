@@ -78,19 +78,19 @@ using Numbers = std::array<float, 17>;
 static_assert(sizeof(Numbers) == sizeof(FilmSample));
 constexpr std::size_t kNotNegative = 13, kFinite = 16;
 
-bool isUsable(const Numbers& numbers) {
-    constexpr std::size_t kLanes = 4;
-    std::array<float, kLanes> probes{}, least{};
-    for (std::size_t first = 0; first < kFinite; first += kLanes)
-        for (std::size_t lane = 0; lane < kLanes; ++lane) {
-            const float number = numbers[first + lane];
-            probes[lane] += number * 0.0f;  // NaN unless finite
-            if (first + kLanes <= kNotNegative) least[lane] = std::min(least[lane], number);
-        }
-    const float probe = (probes[0] + probes[1]) + (probes[2] + probes[3]);
-    const float lowest = std::min(std::min(least[0], least[1]), std::min(least[2], least[3]));
-    return probe == 0 && std::min(lowest, numbers[kNotNegative - 1]) >= 0 &&
-           !std::isnan(numbers[kFinite]);
+// Apart: inlined, GCC takes the numbers one by one.
+[[gnu::noinline]] bool isUsable(const Numbers& numbers) {
+    // On the bits, which is a few instructions for all numbers together: a number that is not
+    // finite has all bits of its exponent set, and adding one there carries into the sign; one that
+    // is negative has its sign set, and another bit (zero has a sign too).
+    constexpr std::uint32_t kSign = 0x80000000u, kExponent = 0x7f800000u;
+    const auto bits = std::bit_cast<std::array<std::uint32_t, 17>>(numbers);
+    std::uint32_t bad = 0;
+    for (std::size_t i = 0; i < kFinite; ++i)
+        bad |= ((bits[i] & ~kSign) + (kSign - kExponent)) & kSign;
+    for (std::size_t i = 0; i < kNotNegative; ++i)
+        bad |= bits[i] & ((bits[i] & ~kSign) + ~kSign) & kSign;
+    return bad == 0 && !std::isnan(numbers[kFinite]);
 }
 
 const FilmLayer* layerNamed(const std::string& name) {
