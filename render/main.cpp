@@ -95,6 +95,7 @@ void recordRender(RunStats& stats, const Scene& scene, const RenderResult& resul
     stats.count("exitanceGroups", total.groups);
     stats.count("exitanceRefinements", total.refinements);
     stats.count("sumReceivers", total.sums.receivers);
+    stats.count("localInteractions", total.sums.localInteractions);
     stats.count("nodeInteractions", total.sums.nodeInteractions);
     stats.count("pointInteractions", total.sums.pointInteractions);
     stats.value("instructionSet", accumulateTarget());

@@ -27,9 +27,9 @@ Input
   --meters-per-unit M     length of a scene unit [the scene's metersPerUnit; m]
 
 Quality
-  --integrator NAME       cached: diffusion by the point cloud; brdf: diffusion without spread,
-                          no cache; volume: radiative transfer, slow, the ground truth
-                          [the scene's, or cached]
+  --integrator NAME       cached: diffusion by the point cloud; bssrdf: the same sample by sample,
+                          no cache, noisy; brdf: diffusion without spread, no cache; volume:
+                          radiative transfer, slow, the ground truth [the scene's, or cached]
   --samples N             per pixel [the scene's, or 64]
   --size WxH              of the picture [the scene's, or 512x512; pixels]
   --tolerance T           relative error of diffusion [the scene's, or 0.01]

@@ -32,7 +32,8 @@ def measure(scale, options):
             "nodes": points["nodes"],
             "sites": render["exitanceSites"],
             "receivers": render["sumReceivers"],
-            "interactionsPerReceiver": (render["nodeInteractions"] + render["pointInteractions"])
+            "interactionsPerReceiver": (render["localInteractions"] + render["nodeInteractions"]
+                                        + render["pointInteractions"])
             / max(render["sumReceivers"], 1),
             "lookups": render["diffusionEvaluations"],
         },

@@ -16,7 +16,8 @@ struct Entry {
 
 JsonValue describe(const InteractionCost& cost) {
     JsonValue json = JsonValue::object();
-    json.set("nodeFlops", cost.nodeFlops)
+    json.set("localFlops", cost.localFlops)
+        .set("nodeFlops", cost.nodeFlops)
         .set("pointFlops", cost.pointFlops)
         .set("exponentials", cost.exponentials)
         .set("squareRoots", cost.squareRoots)
@@ -32,8 +33,8 @@ JsonValue describe(const MethodCounts& counts, double receivers) {
     json.set("interactions", each(counts.interactions()))
         .set("nodes", each(counts.nodeInteractions))
         .set("points", each(counts.pointInteractions))
-        .set("nodesVisited", each(counts.nodesVisited))
-        .set("traversals", each(counts.traversals));
+        .set("locals", each(counts.localInteractions))
+        .set("nodesVisited", each(counts.nodesVisited));
     return json;
 }
 

@@ -20,6 +20,9 @@ InteractionCost ourCost() {
     InteractionCost cost;
     cost.pointFlops = 9 + 1 + 2 + kRowFlops;
     cost.nodeFlops = 9 + 1 + 2 + 28 + 14 + kRowFlops;
+    // Slope and bend by the table 10, by three channels; products with the offset and their sums,
+    // for slope, trace and six of the curvature.
+    cost.localFlops = cost.nodeFlops + 3 * (10 + 2 * (3 + 1 + 6) + 6);
     cost.tableRows = 1;
     cost.pointBytes = 4 * (3 + 4) + kRowBytes;
     cost.nodeBytes = 4 * (3 + 4 + 6) + kRowBytes;
@@ -45,10 +48,10 @@ public:
             hierarchy_.sum.evaluate(receivers.subspan(i, n), setting, out.subspan(i, n), scratch,
                                     spent);
         }
+        counts.localInteractions += spent.localInteractions;
         counts.nodeInteractions += spent.nodeInteractions;
         counts.pointInteractions += spent.pointInteractions;
         counts.nodesVisited += spent.nodesVisited;
-        counts.traversals += spent.traversals;
     }
 
 private:
@@ -103,7 +106,6 @@ public:
         counts.nodeInteractions += spent.nodeInteractions;
         counts.pointInteractions += spent.pointInteractions;
         counts.nodesVisited += spent.nodesVisited;
-        counts.traversals += receivers.size();
     }
 
 private:

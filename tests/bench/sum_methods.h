@@ -10,14 +10,17 @@ namespace sss::bench {
 
 /// What a sum over one cloud cost, whatever the method.
 struct MethodCounts {
-    std::uint64_t nodeInteractions = 0, pointInteractions = 0, nodesVisited = 0, traversals = 0;
-    std::uint64_t interactions() const { return nodeInteractions + pointInteractions; }
+    std::uint64_t localInteractions = 0, nodeInteractions = 0, pointInteractions = 0;
+    std::uint64_t nodesVisited = 0;
+    std::uint64_t interactions() const {
+        return localInteractions + nodeInteractions + pointInteractions;
+    }
 };
 
 /// What one interaction of a method does, by its formula. Multiply and add count one each, a fused
 /// multiply-add two; a channel that only pads a vector is not counted.
 struct InteractionCost {
-    double nodeFlops = 0, pointFlops = 0;
+    double localFlops = 0, nodeFlops = 0, pointFlops = 0;
     double exponentials = 0, squareRoots = 0, tableRows = 0;
     double nodeBytes = 0, pointBytes = 0;  ///< of the source and its table row, at full precision
 };

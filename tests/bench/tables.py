@@ -30,14 +30,15 @@ def frame_rows(frame):
 def curve_row(entry, method):
     counts, error, cost = entry["counts"], entry["error"], method["cost"]
     interactions = max(counts["interactions"], 1)
-    flops = counts["nodes"] * cost["nodeFlops"] + counts["points"] * cost["pointFlops"]
-    moved = counts["nodes"] * cost["nodeBytes"] + counts["points"] * cost["pointBytes"]
+    flops = sum(counts[kind + "s"] * cost[kind + "Flops"] for kind in ("local", "node", "point"))
+    moved = ((counts["locals"] + counts["nodes"]) * cost["nodeBytes"]
+             + counts["points"] * cost["pointBytes"])
     row = {
         "method": method["name"], "setting": entry["setting"],
         "nsPerReceiver": 1e9 * entry["seconds"],
         "nsPerReceiverMedian": 1e9 * entry["secondsMedian"],
-        "interactions": counts["interactions"], "nodes": counts["nodes"],
-        "points": counts["points"], "nodesVisited": counts["nodesVisited"],
+        "interactions": counts["interactions"], "locals": counts["locals"],
+        "nodes": counts["nodes"], "points": counts["points"], "nodesVisited": counts["nodesVisited"],
         "nsPerInteraction": 1e9 * entry["seconds"] / interactions,
         "exponentialsPerInteraction": cost["exponentials"],
         "squareRootsPerInteraction": cost["squareRoots"],

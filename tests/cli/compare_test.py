@@ -20,7 +20,7 @@ def figures(text):
 class Integrators(CliTest):
     def test_every_integrator_renders(self):
         scene = self.write_scene(materials=SMOOTH)
-        for name in ("cached", "brdf", "volume"):
+        for name in ("cached", "bssrdf", "brdf", "volume"):
             result = self.assert_ok(self.render(scene, "-o", f"{name}.exr", "--integrator", name,
                                                 "--samples", 64, "--stats", f"{name}.json"))
             self.assertEqual(result.out, "")
@@ -28,11 +28,14 @@ class Integrators(CliTest):
             self.assertEqual(stats["values"]["integrator"], name)
             self.assertEqual("points" in stats["counts"], name == "cached")
             self.assertEqual(stats["counts"]["scatterings"] > 0, name == "volume")
-        # All three show the same ball: its light but for the models' errors (on this ball, of 26
+        # All show the same ball: its light but for the models' errors (on this ball, of 26
         # free paths, the dipole is too dark by a fifth or so) and the noise.
-        for name in ("cached", "brdf"):
+        for name in ("cached", "bssrdf", "brdf"):
             out = self.assert_ok(self.render("--compare", f"{name}.exr", "volume.exr")).out
             self.assertLess(abs(figures(out)["bias"][0]), 0.4, out)
+        # These two are one model.
+        out = self.assert_ok(self.render("--compare", "bssrdf.exr", "cached.exr")).out
+        self.assertLess(abs(figures(out)["bias"][0]), 0.02, out)
 
     def test_the_scene_names_it_and_the_option_overrules(self):
         quality = {**SCENE["quality"], "integrator": "brdf"}
@@ -46,11 +49,12 @@ class Integrators(CliTest):
 
     def test_threads_do_not_matter(self):
         scene = self.write_scene(materials=SMOOTH)
-        for threads in (1, 2):
-            self.assert_ok(self.render(scene, "-o", f"{threads}.exr", "--integrator", "volume",
-                                       "--threads", threads))
-        self.assertEqual((self.folder / "1.exr").read_bytes(),
-                         (self.folder / "2.exr").read_bytes())
+        for name in ("volume", "bssrdf"):
+            for threads in (1, 2):
+                self.assert_ok(self.render(scene, "-o", f"{threads}.exr", "--integrator", name,
+                                           "--threads", threads))
+            self.assertEqual((self.folder / "1.exr").read_bytes(),
+                             (self.folder / "2.exr").read_bytes())
 
     def test_meshes_that_cut_each_other_are_told(self):
         balls = [{"name": name, "shape": "sphere", "radius": 5, "material": "stone",

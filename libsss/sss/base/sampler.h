@@ -24,6 +24,8 @@ public:
     /// Passes over a number, or a pair, that is not needed: what comes after stays the same, and a
     /// dimension means the same in all samples of a pixel, as stratification needs.
     void skip(std::uint32_t calls = 1) { dimension_ += calls; }
+    /// Numbers of their own for a side path that takes nobody knows how many: costs the path one.
+    Sampler branch() { return {combineSeeds(seed_, ~std::uint64_t{dimension_++}), index_}; }
     std::uint32_t index() const { return index_; }
 
 private:

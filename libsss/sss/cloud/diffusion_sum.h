@@ -1,10 +1,16 @@
 #pragma once
+#include "sss/cloud/candidates.h"
+#include "sss/cloud/error_bound.h"
 #include "sss/cloud/interactions.h"
 #include "sss/cloud/kernel_table.h"
+#include "sss/cloud/local_expansion.h"
 #include "sss/cloud/octree.h"
 #include "sss/cloud/point_cloud.h"
+#include "sss/cloud/receiver_tree.h"
 
+#include <array>
 #include <cstdint>
+#include <deque>
 #include <span>
 
 namespace sss {
@@ -12,26 +18,31 @@ namespace sss {
 /// What a sum cost, for the statistics.
 struct SumCounts {
     std::uint64_t receivers = 0;
+    std::uint64_t localInteractions = 0;  ///< cell of receivers x node
     std::uint64_t nodeInteractions = 0;   ///< receiver x node
     std::uint64_t pointInteractions = 0;  ///< receiver x point
-    std::uint64_t nodesVisited = 0;       ///< by groups
-    std::uint64_t traversals = 0;         ///< groups, and repeats where the bound was missed
+    std::uint64_t nodesVisited = 0;       ///< by cells
+    std::uint64_t groups = 0;
+    std::uint64_t repeats = 0;  ///< of leaves whose bounds added up to too much
 
     void add(const SumCounts& other);
-    std::uint64_t interactions() const { return nodeInteractions + pointInteractions; }
+    std::uint64_t interactions() const {
+        return localInteractions + nodeInteractions + pointInteractions;
+    }
 };
 
 /// Radiant exitance M(x) = sum over points of R_d(|x - p|) E_p A_p [JB02], W m^-2 per channel, for
 /// groups of neighbouring receivers over the octree. Const and thread-safe; one scratch a thread.
 ///
-/// Error control. A node is taken whole, as its flux at its centroid with the second-order term of
-/// its moments, if a bound of what that leaves out (third derivative of R_d over the node as seen
-/// from anywhere in the group, and the differences between the channels' moments) is below a share
-/// of tolerance x M; the shares are made smaller until the bounds add up to what is asked for.
-/// tolerance 0 sums over all points.
+/// Two trees meet: the points' and that of the group's receivers. What is far from a cell of
+/// receivers is added once for the whole cell, as a polynomial of second order (LocalExpansion);
+/// what is nearer is left to its halves; a leaf of a few receivers takes nodes by their flux and
+/// second moments, and at last points.
 ///
-/// The group takes what it can take as one; what is too near for that is left to clusters of a few
-/// receivers each, whose bounds are far tighter, since they are seen from a smaller place.
+/// Error control. A node is taken whole if a bound of what that leaves out (third derivative of R_d
+/// over the node as seen from anywhere in the cell, and the differences between the channels'
+/// moments) is below a share of tolerance x M; the shares are made smaller until the bounds add up
+/// to what is asked for. tolerance 0 sums over all points.
 class DiffusionSum {
 public:
     DiffusionSum(const CloudView& cloud, std::span<const OctreeNode> nodes,
@@ -39,11 +50,15 @@ public:
 
     /// Reusable memory of one thread.
     struct Scratch {
-        InteractionList nodes, points;
-        std::vector<std::uint32_t> stack, pending;
-        std::vector<std::uint32_t> order;  ///< receivers by cluster
-        std::vector<Vec3> clustered;       ///< their positions in that order
-        std::vector<DRgb> shared, sums;
+        InteractionList locals, nodes, points;
+        CandidateList root;                  ///< the octree's root
+        std::array<CandidateList, 2> fresh;  ///< children of opened nodes
+        std::deque<CandidateList> pending;   ///< left to a cell's halves, one for each depth
+        std::vector<std::uint32_t> stack;
+        std::vector<ReceiverCell> cells;
+        std::vector<std::uint32_t> order;  ///< receivers by cell
+        std::vector<Vec3> ordered;         ///< their positions in that order
+        std::vector<DRgb> sums;            ///< in that order
     };
 
     /// `out[i]` = M at receivers[i] (mm, body space). The answer of a receiver depends on its
@@ -54,28 +69,32 @@ public:
     DRgb bruteForce(const Vec3& receiver) const;
 
 private:
-    struct Group {
-        Vec3 centre;
-        float radius;
+    struct Goal {
+        double tolerance;
+        Rgb threshold;  ///< what a node may leave out, W m^-2
     };
-    static Group groupAround(std::span<const Vec3> receivers);
-    DRgb estimate(const Group& group, Scratch& scratch, SumCounts& counts) const;
-    /// Fills the lists from the nodes `from` down; returns the sum of the bounds of what was left
-    /// out. Nodes smaller than the group that it cannot take whole are left to `pending`, if given.
-    DRgb gather(const Group& group, const Rgb& threshold, std::span<const std::uint32_t> from,
-                std::vector<std::uint32_t>* pending, Scratch& scratch, SumCounts& counts) const;
-    void gatherLeaf(const OctreeNode& node, Scratch& scratch) const;
-    /// Adds the lists to the sums of `receivers`.
-    void addLists(std::span<const Vec3> receivers, std::span<DRgb> sums, Scratch& scratch,
-                  SumCounts& counts) const;
-    /// Sums of one cluster: what is left after the group's `shared` part and its `error`.
-    struct Shared {
-        std::span<const DRgb> sums;
-        DRgb error;
-        Rgb threshold;
+    /// What a cell of receivers inherits: the nodes that are left to it, what the others add, and
+    /// the bounds of what that left out.
+    struct Inherited {
+        const CandidateList* left;
+        LocalExpansion far;
+        ErrorBound error;
+        Goal goal;
+        std::size_t depth;
     };
-    void evaluateCluster(std::span<const Vec3> receivers, double tolerance, const Shared& shared,
-                         Scratch& scratch, SumCounts& counts) const;
+    DRgb estimate(const ReceiverCell& cell, Scratch& scratch, SumCounts& counts) const;
+    /// Takes what is far from an inner cell and goes on with its halves.
+    void descend(const ReceiverCell& cell, const Inherited& from, Scratch& scratch,
+                 SumCounts& counts) const;
+    /// Sums of a leaf's receivers.
+    void finish(const ReceiverCell& leaf, const Inherited& from, Scratch& scratch,
+                SumCounts& counts) const;
+    /// Decides about the nodes `from` and those below: which are taken whole (into `locals` where
+    /// there are halves to go on with, else `nodes`), which are left to the halves (`pending`), and
+    /// which points are taken one by one. Returns the bounds of what is left out.
+    ErrorBound gather(const CellTest& cell, const CandidateList& from, CandidateList* pending,
+                      Scratch& scratch, SumCounts& counts) const;
+    void open(const OctreeNode& node, CandidateList& fresh, Scratch& scratch) const;
 
     CloudView cloud_;
     std::span<const OctreeNode> nodes_;

@@ -1,7 +1,5 @@
 #include "sss/cloud/interactions.h"
 
-#include <bit>
-
 namespace sss {
 
 InteractionList::Block& InteractionList::room() {
@@ -44,39 +42,31 @@ void InteractionList::pad() {
     }
 }
 
+float quadraticForm(const InteractionList::Block& block, std::size_t i, const Vec3& d) {
+    const auto& m = block.moments;
+    return m[0][i] * d.x * d.x + m[1][i] * d.y * d.y + m[2][i] * d.z * d.z +
+           2.0f * (m[3][i] * d.x * d.y + m[4][i] * d.x * d.z + m[5][i] * d.y * d.z);
+}
+
 namespace {
 
 Rgb evaluateOne(const KernelTable& table, const InteractionList::Block& block, std::size_t i,
                 bool withMoments, const Vec3& receiver) {
-    const float dx = receiver.x - block.x[i], dy = receiver.y - block.y[i],
-                dz = receiver.z - block.z[i];
-    const float u = dx * dx + dy * dy + dz * dz + table.offsetMm2();
-    const auto bits = std::bit_cast<std::uint32_t>(u);
-    const auto row =
-        std::min(static_cast<std::int32_t>(bits >> KernelTable::kShift) - table.baseRow(),
-                 static_cast<std::int32_t>(table.rowCount()) - 1);
-    const KernelTable::Row& c = table.rows()[row];
-    constexpr std::uint32_t mask = (1u << KernelTable::kShift) - 1;
-    const float t = static_cast<float>(bits & mask) * (1.0f / static_cast<float>(mask + 1));
+    const Vec3 d(receiver.x - block.x[i], receiver.y - block.y[i], receiver.z - block.z[i]);
+    const auto [row, t, s] = table.placeOf(glm::dot(d, d));
     float a = 0, b = 0;
     if (withMoments) {
         const auto& m = block.moments;
-        // dt/du: segments an octave over the power of two below u.
-        const float s = std::bit_cast<float>((254u << 23) - (bits & 0x7f800000u)) *
-                        static_cast<float>(1 << KernelTable::kSegmentBits);
-        const float trace = m[0][i] + m[1][i] + m[2][i];
-        const float along = m[0][i] * dx * dx + m[1][i] * dy * dy + m[2][i] * dz * dz +
-                            2.0f * (m[3][i] * dx * dy + m[4][i] * dx * dz + m[5][i] * dy * dz);
-        a = s * trace;
-        b = 2.0f * s * s * along;
+        a = s * (m[0][i] + m[1][i] + m[2][i]);
+        b = 2.0f * s * s * quadraticForm(block, i, d);
     }
     const float k1 = t + a;
     const float k2 = t * t + 2.0f * (t * a + b);
     const float k3 = t * (t * t + 3.0f * t * a + 6.0f * b);
     Rgb sum;
     for (int ch = 0; ch < 3; ++ch)
-        sum[ch] =
-            block.flux[i][ch] * (c.c[0][ch] + k1 * c.c[1][ch] + k2 * c.c[2][ch] + k3 * c.c[3][ch]);
+        sum[ch] = block.flux[i][ch] *
+                  (row->c[0][ch] + k1 * row->c[1][ch] + k2 * row->c[2][ch] + k3 * row->c[3][ch]);
     return sum;
 }
 

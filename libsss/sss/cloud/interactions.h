@@ -35,6 +35,9 @@ private:
     std::size_t used_ = 0;
 };
 
+/// d^T Q d of source i.
+float quadraticForm(const InteractionList::Block& block, std::size_t i, const Vec3& d);
+
 /// Adds to sums[i] the sum over the list of flux x f(|receiver - source|^2), with the second-order
 /// term of each node's moments where `withMoments`: f + f' tr Q + 2 f'' d^T Q d, primes by u = r^2.
 /// Highway picks the widest instructions of the machine at run time. Within a block of 64 sums are

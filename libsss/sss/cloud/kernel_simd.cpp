@@ -1,6 +1,8 @@
 // The vector code of the diffusion sum. Compiled once for every instruction set that Highway knows
 // for this processor family, chosen when it first runs.
+#include "sss/cloud/candidates.h"
 #include "sss/cloud/interactions.h"
+#include "sss/cloud/local_expansion.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "sss/cloud/kernel_simd.cpp"
@@ -17,6 +19,13 @@ void accumulateAny(const KernelTable& table, const InteractionList& list, bool w
                    std::span<const Vec3> receivers, std::span<DRgb> sums) {
     accumulateScalar(table, list, withMoments, receivers, sums);
 }
+void expandAny(const KernelTable& table, const InteractionList& nodes, LocalExpansion& expansion) {
+    accumulateScalar(table, nodes, expansion);
+}
+Verdict judgeAny(const KernelTable& table, const CandidateList::Block& block, const CellTest& cell,
+                 ErrorBound& error) {
+    return judgeScalar(table, block, cell, error);
+}
 #else
 
 namespace hn = hwy::HWY_NAMESPACE;
@@ -28,9 +37,15 @@ struct alignas(64) Weights {
     float k1[kBlock], k2[kBlock], k3[kBlock];
 };
 
+// What an expansion needs besides: the place in the row, dt/du = s, s (centre - source).
+struct alignas(64) Steps {
+    float t[kBlock], s[kBlock];
+    float x[kBlock], y[kBlock], z[kBlock];
+};
+
 template <bool kWithMoments>
 HWY_ATTR void weigh(const KernelTable& table, const InteractionList::Block& block,
-                    const Vec3& receiver, Weights& out) {
+                    const Vec3& receiver, Weights& out, Steps* steps = nullptr) {
     const hn::CappedTag<float, kBlock> d;
     const hn::RebindToSigned<decltype(d)> di;
     const auto px = hn::Set(d, receiver.x), py = hn::Set(d, receiver.y),
@@ -62,6 +77,13 @@ HWY_ATTR void weigh(const KernelTable& table, const InteractionList::Block& bloc
             const auto two = hn::Set(d, 2.0f);
             // d^T Q d with Q d row by row, scaled by s on both sides to stay in range.
             const auto sx = hn::Mul(s, dx), sy = hn::Mul(s, dy), sz = hn::Mul(s, dz);
+            if (steps != nullptr) {
+                hn::Store(t, d, steps->t + i);
+                hn::Store(s, d, steps->s + i);
+                hn::Store(sx, d, steps->x + i);
+                hn::Store(sy, d, steps->y + i);
+                hn::Store(sz, d, steps->z + i);
+            }
             const auto qx = hn::MulAdd(xx, sx, hn::MulAdd(xy, sy, hn::Mul(xz, sz)));
             const auto qy = hn::MulAdd(xy, sx, hn::MulAdd(yy, sy, hn::Mul(yz, sz)));
             const auto qz = hn::MulAdd(xz, sx, hn::MulAdd(yz, sy, hn::Mul(zz, sz)));
@@ -118,12 +140,153 @@ HWY_ATTR void accumulateList(const KernelTable& table, const InteractionList& li
         }
 }
 
+template <class D, class Mask>
+HWY_ATTR std::uint64_t bitsOf(D d, Mask mask) {
+    std::uint8_t bytes[8] = {};
+    hn::StoreMaskBits(d, mask, bytes);
+    std::uint64_t bits = 0;
+    for (std::size_t k = 0; k < (hn::Lanes(d) + 7) / 8; ++k)
+        bits |= std::uint64_t{bytes[k]} << 8 * k;
+    return bits;
+}
+
+// One block's part of an expansion, all channels of a source in one vector.
+HWY_ATTR void expandBlock(const KernelTable& table, const InteractionList::Block& block,
+                          const Weights& w, const Steps& steps, LocalExpansion& to) {
+    const hn::FixedTag<float, 4> d;
+    const KernelTable::Row* rows = table.rows();
+    auto value = hn::Zero(d), trace = hn::Zero(d), gx = hn::Zero(d), gy = hn::Zero(d),
+         gz = hn::Zero(d), xx = hn::Zero(d), yy = hn::Zero(d), zz = hn::Zero(d), xy = hn::Zero(d),
+         xz = hn::Zero(d), yz = hn::Zero(d);
+    for (std::size_t i = 0; i < block.count; ++i) {
+        const auto& row = rows[w.row[i]].c;
+        const auto flux = hn::Load(d, block.flux[i]);
+        const auto c1 = hn::Load(d, row[1]), c2 = hn::Load(d, row[2]), c3 = hn::Load(d, row[3]);
+        auto f = hn::MulAdd(hn::Set(d, w.k1[i]), c1, hn::Load(d, row[0]));
+        f = hn::MulAdd(hn::Set(d, w.k2[i]), c2, f);
+        f = hn::MulAdd(hn::Set(d, w.k3[i]), c3, f);
+        value = hn::MulAdd(f, flux, value);
+        const auto t = hn::Set(d, steps.t[i]), two = hn::Set(d, 2.0f);
+        const auto tc3 = hn::Mul(hn::Mul(t, c3), hn::Set(d, 3.0f)), c2c2 = hn::Mul(two, c2);
+        const auto flux2 = hn::Mul(two, flux);
+        const auto slope = hn::Mul(flux2, hn::MulAdd(t, hn::Add(c2c2, tc3), c1));  // 2 df/dt
+        trace = hn::MulAdd(hn::Set(d, steps.s[i]), slope, trace);
+        const auto sx = hn::Set(d, steps.x[i]), sy = hn::Set(d, steps.y[i]),
+                   sz = hn::Set(d, steps.z[i]);
+        gx = hn::MulAdd(slope, sx, gx);
+        gy = hn::MulAdd(slope, sy, gy);
+        gz = hn::MulAdd(slope, sz, gz);
+        const auto bend = hn::Mul(hn::Mul(two, flux2), hn::MulAdd(two, tc3, c2c2));  // 4 d2f/dt2
+        const auto bx = hn::Mul(bend, sx), by = hn::Mul(bend, sy), bz = hn::Mul(bend, sz);
+        xx = hn::MulAdd(bx, sx, xx);
+        xy = hn::MulAdd(bx, sy, xy);
+        xz = hn::MulAdd(bx, sz, xz);
+        yy = hn::MulAdd(by, sy, yy);
+        yz = hn::MulAdd(by, sz, yz);
+        zz = hn::MulAdd(bz, sz, zz);
+    }
+    const auto add = [&](auto v, DRgb& sum) {
+        alignas(16) float lanes[4];
+        hn::Store(v, d, lanes);
+        sum += DRgb(lanes[0], lanes[1], lanes[2]);
+    };
+    add(value, to.value);
+    add(gx, to.gradient[0]);
+    add(gy, to.gradient[1]);
+    add(gz, to.gradient[2]);
+    add(hn::Add(xx, trace), to.hessian[0]);
+    add(hn::Add(yy, trace), to.hessian[1]);
+    add(hn::Add(zz, trace), to.hessian[2]);
+    add(xy, to.hessian[3]);
+    add(xz, to.hessian[4]);
+    add(yz, to.hessian[5]);
+}
+
+HWY_ATTR void expandAny(const KernelTable& table, const InteractionList& nodes,
+                        LocalExpansion& expansion) {
+    Weights weights;
+    Steps steps;
+    for (const InteractionList::Block& block : nodes.blocks()) {
+        weigh<true>(table, block, expansion.centre, weights, &steps);
+        expandBlock(table, block, weights, steps, expansion);
+    }
+}
+
 HWY_ATTR void accumulateAny(const KernelTable& table, const InteractionList& list, bool withMoments,
                             std::span<const Vec3> receivers, std::span<DRgb> sums) {
     if (withMoments)
         accumulateList<true>(table, list, receivers, sums);
     else
         accumulateList<false>(table, list, receivers, sums);
+}
+
+HWY_ATTR Verdict judgeAny(const KernelTable& table, const CandidateList::Block& block,
+                          const CellTest& cell, ErrorBound& error) {
+    const hn::CappedTag<float, kBlock> d;
+    const hn::RebindToSigned<decltype(d)> di;
+    const auto zero = hn::Zero(d);
+    const auto u0 = hn::Set(d, table.offsetMm2());
+    const auto lastRow = hn::Set(di, static_cast<std::int32_t>(table.rowCount()) - 1);
+    const auto reach = hn::Set(d, cell.reach);
+    const float* bounds = table.boundRows();
+    const Rgb scales = shareScale(cell.threshold);
+    decltype(hn::Zero(d)) changing[3] = {zero, zero, zero}, steady[3] = {zero, zero, zero};
+    Verdict verdict;
+    for (std::size_t i = 0; i < block.count; i += hn::Lanes(d)) {
+        const auto dx = hn::Sub(hn::Load(d, block.x + i), hn::Set(d, cell.centre.x));
+        const auto dy = hn::Sub(hn::Load(d, block.y + i), hn::Set(d, cell.centre.y));
+        const auto dz = hn::Sub(hn::Load(d, block.z + i), hn::Set(d, cell.centre.z));
+        const auto distance = hn::Sqrt(hn::MulAdd(dx, dx, hn::MulAdd(dy, dy, hn::Mul(dz, dz))));
+        const auto away = hn::Add(hn::Load(d, block.radius + i), hn::Set(d, cell.radius));
+        const auto nearest = hn::Max(zero, hn::Sub(distance, away));
+        const auto bits = hn::BitCast(di, hn::MulAdd(nearest, nearest, u0));
+        const auto row = hn::Min(
+            hn::Sub(hn::ShiftRight<KernelTable::kShift>(bits), hn::Set(di, table.baseRow())),
+            lastRow);
+        const auto place = hn::Mul(row, hn::Set(di, KernelTable::kBoundFloats));
+        // thirdOrder()
+        const auto extent = hn::Load(d, block.extent + i), both = hn::Add(extent, reach);
+        const auto third =
+            hn::MulSub(hn::Mul(both, hn::Set(d, kReachWeight / 6.0f)), hn::Mul(both, both),
+                       hn::Mul(hn::Mul(extent, hn::Set(d, (kReachWeight - 1.0f) / 6.0f)),
+                               hn::Mul(extent, extent)));
+        const auto offset = hn::Load(d, block.offset + i);
+        const auto second =
+            hn::MulAdd(hn::Load(d, block.difference + i), hn::Set(d, 0.5f), hn::Mul(offset, reach));
+        const bool isGrey = hn::AllTrue(d, hn::Eq(hn::Add(second, offset), zero));
+        auto isDark =
+            hn::Lt(hn::Iota(d, static_cast<float>(i)), hn::Set(d, static_cast<float>(block.count)));
+        auto isTaken = isDark;
+        decltype(hn::Zero(d)) c3[3], c1[3];
+        for (int c = 0; c < 3; ++c) {
+            const auto at = [&](int order) {
+                return hn::GatherIndex(d, bounds, hn::Add(place, hn::Set(di, 3 * order + c)));
+            };
+            const auto flux = hn::Load(d, block.flux[c] + i);
+            const auto threshold = hn::Set(d, cell.threshold[c]);
+            isDark = hn::And(isDark, hn::Le(hn::Mul(flux, at(0)),
+                                            hn::Mul(threshold, hn::Set(d, kNegligibleShare))));
+            c3[c] = hn::Mul(flux, hn::Mul(at(3), third));
+            c1[c] =
+                isGrey ? zero : hn::Mul(flux, hn::MulAdd(at(2), second, hn::Mul(at(1), offset)));
+            isTaken = hn::And(
+                isTaken, hn::Le(hn::MulAdd(c1[c], hn::Set(d, kSteadyWeight), c3[c]), threshold));
+        }
+        isTaken = hn::AndNot(isDark, isTaken);
+        for (int c = 0; c < 3; ++c) {
+            const auto scale = hn::Set(d, scales[c]);
+            const auto part = hn::IfThenElseZero(isTaken, hn::Mul(c3[c], scale));
+            changing[c] = hn::MulAdd(part, part, changing[c]);
+            steady[c] = hn::Add(steady[c], hn::IfThenElseZero(isTaken, hn::Mul(c1[c], scale)));
+        }
+        verdict.taken |= bitsOf(d, isTaken) << i;
+        verdict.dark |= bitsOf(d, isDark) << i;
+    }
+    for (int c = 0; c < 3; ++c) {
+        error.changing[c] += static_cast<double>(hn::GetLane(hn::SumOfLanes(d, changing[c])));
+        error.steady[c] += static_cast<double>(hn::GetLane(hn::SumOfLanes(d, steady[c])));
+    }
+    return verdict;
 }
 
 #endif
@@ -138,11 +301,22 @@ HWY_AFTER_NAMESPACE();
 namespace sss {
 
 HWY_EXPORT(accumulateAny);
+HWY_EXPORT(expandAny);
+HWY_EXPORT(judgeAny);
 HWY_EXPORT(targetName);
 
 void accumulate(const KernelTable& table, const InteractionList& list, bool withMoments,
                 std::span<const Vec3> receivers, std::span<DRgb> sums) {
     HWY_DYNAMIC_DISPATCH(accumulateAny)(table, list, withMoments, receivers, sums);
+}
+
+void accumulate(const KernelTable& table, const InteractionList& nodes, LocalExpansion& expansion) {
+    HWY_DYNAMIC_DISPATCH(expandAny)(table, nodes, expansion);
+}
+
+Verdict judge(const KernelTable& table, const CandidateList::Block& block, const CellTest& cell,
+              ErrorBound& error) {
+    return HWY_DYNAMIC_DISPATCH(judgeAny)(table, block, cell, error);
 }
 
 const char* accumulateTarget() { return HWY_DYNAMIC_DISPATCH(targetName)(); }

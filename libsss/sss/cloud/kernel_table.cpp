@@ -147,14 +147,22 @@ void KernelTable::boundDerivatives(const Regularised& profiles) {
                 glm::max(bounds_[i].derivative[k], bounds_[i + 1].derivative[k]);
 }
 
-Rgb KernelTable::evaluate(float distanceSquaredMm2) const {
+KernelTable::Place KernelTable::placeOf(float distanceSquaredMm2) const {
     const auto bits = std::bit_cast<std::uint32_t>(distanceSquaredMm2 + u0_);
-    const Row& row = rows_[rowOf(distanceSquaredMm2)];
-    const float t =
-        static_cast<float>(bits & ((1u << kShift) - 1)) * (1.0f / static_cast<float>(1u << kShift));
+    constexpr std::uint32_t kRows = 1u << kShift;
+    // Segments an octave over the power of two below u + u0.
+    const float scale = std::bit_cast<float>((254u << 23) - (bits & 0x7f800000u)) *
+                        static_cast<float>(1 << kSegmentBits);
+    return {&rows_[rowOf(distanceSquaredMm2)],
+            static_cast<float>(bits & (kRows - 1)) * (1.0f / static_cast<float>(kRows)), scale};
+}
+
+Rgb KernelTable::evaluate(float distanceSquaredMm2) const {
+    const Place place = placeOf(distanceSquaredMm2);
+    const float t = place.t;
+    const auto& c = place.row->c;
     Rgb f;
-    for (int c = 0; c < 3; ++c)
-        f[c] = row.c[0][c] + t * (row.c[1][c] + t * (row.c[2][c] + t * row.c[3][c]));
+    for (int k = 0; k < 3; ++k) f[k] = c[0][k] + t * (c[1][k] + t * (c[2][k] + t * c[3][k]));
     return f;
 }
 

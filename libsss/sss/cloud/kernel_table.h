@@ -33,6 +33,7 @@ public:
     struct BoundsRow {
         Rgb derivative[4];
     };
+    static_assert(sizeof(BoundsRow) == 12 * sizeof(float));
 
     /// `profiles` may hold the same pointer more than once. Distances up to `reachMm` matter;
     /// beyond, and where a profile falls below 1e-30 of its peak, the table is 0.
@@ -40,9 +41,18 @@ public:
     KernelTable(const std::array<const Profile*, 3>& profiles, double reachMm, double cellRadiusMm);
 
     Rgb evaluate(float distanceSquaredMm2) const;
+    /// A distance in the table: its row, the place t in it, and dt/du, mm^-2.
+    struct Place {
+        const Row* row;
+        float t, scale;
+    };
+    Place placeOf(float distanceSquaredMm2) const;
     const BoundsRow& boundsAt(float distanceSquaredMm2) const {
         return bounds_[rowOf(distanceSquaredMm2)];
     }
+    /// All rows of bounds, kBoundFloats a row: [derivative][channel].
+    static constexpr int kBoundFloats = 12;
+    const float* boundRows() const { return &bounds_.front().derivative[0].x; }
     const Row* rows() const { return rows_.data(); }
     std::size_t rowCount() const { return rows_.size(); }
     std::int32_t baseRow() const { return base_; }

@@ -107,9 +107,12 @@ void summarise(OctreeNode& node, const CloudView& cloud, const Range& range) {
             difference[k] = m.second[k] / m.weight - mean.second[k] / mean.weight;
         moment = std::max(moment, tensorNorm(difference));
     }
-    node.chromaticOffset = static_cast<float>(offset);
-    node.chromaticMoment = static_cast<float>(moment);
-    node.thirdMoment = static_cast<float>(third);
+    // Rounding is not colour: under white light both are 0.
+    constexpr double kRounding = 1e-9;
+    const double extent = std::cbrt(third);
+    node.chromaticOffset = offset > kRounding * extent ? static_cast<float>(offset) : 0.0f;
+    node.chromaticMoment = moment > kRounding * extent * extent ? static_cast<float>(moment) : 0.0f;
+    node.cubicMean = static_cast<float>(extent);
 }
 
 }  // namespace

@@ -17,7 +17,8 @@ struct OctreeNode {
     float moments[6]{};         ///< xx yy zz xy xz yz of sum w (p-c)(p-c)^T / sum w, mm^2
     float chromaticOffset = 0;  ///< largest distance of a channel's own centroid from `centroid`
     float chromaticMoment = 0;  ///< largest norm of (a channel's second moment - `moments`), mm^2
-    float thirdMoment = 0;      ///< largest over channels of sum w |p-c|^3 / sum w, mm^3
+    float cubicMean = 0;        ///< cube root of the largest over channels of
+                                ///< sum w |p-c|^3 / sum w, mm: how far out the flux lies
     Vec3 lo{}, hi{};            ///< bounds of the points
     std::uint32_t first = 0;    ///< first child (inner node) or first point (leaf)
     std::uint32_t count = 0;    ///< children of an inner node, or kLeaf | points of a leaf

@@ -115,6 +115,29 @@ struct PacketLanes {
     }
 };
 
+/// Hands every hit of a ray on, and lets the ray pass.
+struct VisitContext {
+    RTCIntersectContext embree;  // first: Embree knows no more of it
+    Vec3 direction;
+    const std::function<void(const Hit&)>* visit;
+
+    static void pass(const RTCFilterFunctionNArguments* arguments) {
+        const auto& self = *reinterpret_cast<const VisitContext*>(arguments->context);
+        RTCHitN* const found = arguments->hit;
+        Hit hit;
+        hit.t = RTCRayN_tfar(arguments->ray, 1, 0);
+        hit.geometry = RTCHitN_geomID(found, 1, 0);
+        hit.face = RTCHitN_primID(found, 1, 0);
+        hit.u = RTCHitN_u(found, 1, 0);
+        hit.v = RTCHitN_v(found, 1, 0);
+        hit.normal = unitNormal(
+            {RTCHitN_Ng_x(found, 1, 0), RTCHitN_Ng_y(found, 1, 0), RTCHitN_Ng_z(found, 1, 0)},
+            self.direction);
+        (*self.visit)(hit);
+        arguments->valid[0] = 0;
+    }
+};
+
 RTCIntersectContext contextOf(RayScene::Together together) {
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
@@ -147,7 +170,7 @@ struct RayScene::Impl {
 RayScene::RayScene(std::span<const Geometry> geometries) : impl_(std::make_unique<Impl>()) {
     const Device& device = *impl_->device;
     device.check("making a scene");
-    rtcSetSceneFlags(impl_->scene, RTC_SCENE_FLAG_ROBUST);
+    rtcSetSceneFlags(impl_->scene, RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION);
     rtcSetSceneBuildQuality(impl_->scene, RTC_BUILD_QUALITY_MEDIUM);
     for (std::size_t i = 0; i < geometries.size(); ++i) {
         const Geometry& input = geometries[i];
@@ -198,6 +221,18 @@ bool RayScene::occluded(const Ray& ray, std::uint32_t mask) const {
     rtcOccluded1(impl_->scene, &context, &query);
     // Embree marks an occluded ray with tfar = -inf.
     return query.tfar < ray.tMin;
+}
+
+void RayScene::forEachHit(const Ray& ray, const std::function<void(const Hit&)>& visit,
+                          std::uint32_t mask) const {
+    RTCRay query;
+    fillRay(ray, mask, query);
+    VisitContext context;
+    rtcInitIntersectContext(&context.embree);
+    context.embree.filter = VisitContext::pass;
+    context.direction = ray.direction;
+    context.visit = &visit;
+    rtcOccluded1(impl_->scene, &context.embree, &query);
 }
 
 void RayScene::intersectTogether(std::span<const Ray> rays, std::span<Hit> hits) const {

@@ -3,6 +3,7 @@
 #include "sss/base/vec.h"
 
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <memory>
 #include <span>
@@ -52,8 +53,13 @@ public:
     bool intersect(const Ray& ray, Hit& hit, std::uint32_t mask = kAllGeometry) const;
     /// Whether anything lies in (tMin, tMax).
     bool occluded(const Ray& ray, std::uint32_t mask = kAllGeometry) const;
-    /// The same for rays that start close together and go the same way, as those through one pixel
-    /// do: cheaper together. Hits of rays that hit nothing have kNoGeometry.
+    /// Calls visit for every hit in (tMin, tMax), in an order of no meaning but always the same, in
+    /// one traversal: no face is missed or met twice by stepping from hit to hit. `visit` must not
+    /// throw.
+    void forEachHit(const Ray& ray, const std::function<void(const Hit&)>& visit,
+                    std::uint32_t mask = kAllGeometry) const;
+    /// intersect() for rays that start close together and go the same way, as those through one
+    /// pixel do: cheaper together. Hits of rays that hit nothing have kNoGeometry.
     void intersectTogether(std::span<const Ray> rays, std::span<Hit> hits) const;
     /// Whether rays go the same way too: through one pixel, or to one point.
     enum class Together { Parted, Parallel };

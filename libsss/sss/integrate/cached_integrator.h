@@ -1,4 +1,5 @@
 #pragma once
+#include "sss/integrate/field_exitance.h"
 #include "sss/integrate/integrator_table.h"
 
 namespace sss {
@@ -7,7 +8,7 @@ namespace sss {
 class CachedIntegrator : public Integrator {
 public:
     explicit CachedIntegrator(const IntegratorInput& input)
-        : tracer_(input.world, input.optics, input.fields) {}
+        : exitance_(input.fields), tracer_(input.world, input.optics, &exitance_) {}
     FilmSample trace(const Ray& ray, Sampler& sampler, PathCounts& counts) const override {
         return tracer_.trace(ray, sampler, counts);
     }
@@ -17,6 +18,7 @@ public:
     }
 
 private:
+    FieldExitance exitance_;
     PathTracer tracer_;
 };
 

@@ -2,6 +2,7 @@
 
 #include "sss/base/error.h"
 #include "sss/base/near_name.h"
+#include "sss/integrate/bssrdf_integrator.h"
 #include "sss/integrate/cached_integrator.h"
 #include "sss/integrate/diffuse_limit_integrator.h"
 #include "sss/integrate/volume_integrator.h"
@@ -22,6 +23,7 @@ std::unique_ptr<Integrator> make(const IntegratorInput& input) {
 
 constexpr std::array kKinds{
     IntegratorKind{"cached", true, make<CachedIntegrator>},
+    IntegratorKind{"bssrdf", false, make<BssrdfIntegrator>},
     IntegratorKind{"brdf", false, make<DiffuseLimitIntegrator>},
     IntegratorKind{"volume", false, make<VolumeIntegrator>},
 };

@@ -1,4 +1,5 @@
 #pragma once
+#include "sss/integrate/body_field.h"
 #include "sss/integrate/integrator.h"
 
 #include <memory>

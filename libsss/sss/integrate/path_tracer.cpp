@@ -3,6 +3,7 @@
 #include "sss/base/assert.h"
 #include "sss/base/inline_vector.h"
 #include "sss/integrate/arriving_light.h"
+#include "sss/integrate/first_hit.h"
 #include "sss/integrate/single_scatter.h"
 
 #include <algorithm>
@@ -33,14 +34,14 @@ void PathCounts::add(const PathCounts& other) {
 }
 
 PathTracer::PathTracer(const World& world, std::span<const std::unique_ptr<BodyOptics>> optics,
-                       std::span<const std::unique_ptr<BodyField>> fields)
-    : world_(world), optics_(optics), fields_(fields) {}
+                       const ExitanceSource* exitance)
+    : world_(world), optics_(optics), exitance_(exitance) {}
 
 Bsdf PathTracer::bsdfAt(const SurfaceHit& hit, const Vec3& wo) const {
     const BodyOptics* optics =
         hit.body >= 0 ? optics_[static_cast<std::size_t>(hit.body)].get() : nullptr;
     return Bsdf(world_, hit, wo, optics,
-                fields_.empty() ? Bsdf::BodyShading::DiffuseLimit : Bsdf::BodyShading::Surface);
+                exitance_ ? Bsdf::BodyShading::Surface : Bsdf::BodyShading::DiffuseLimit);
 }
 
 Rgb PathTracer::openLight(const SurfaceHit& hit, const Bsdf& bsdf, Sampler& sampler,
@@ -92,13 +93,13 @@ void PathTracer::putInFront(const Ray& ray, float distance, Sampler& sampler, Fi
     seen.surface += radianceOfLights(world_, ray, distance, {});
 }
 
-Rgb PathTracer::diffusion(const SurfaceHit& hit, const Bsdf& bsdf, PathCounts& counts) const {
-    if (hit.body < 0 || fields_.empty()) return Rgb(0);
-    const auto body = static_cast<std::size_t>(hit.body);
-    const BodyOptics& optics = *optics_[body];
+Rgb PathTracer::diffusion(const SurfaceHit& hit, const Bsdf& bsdf, Sampler& sampler,
+                          PathCounts& counts) const {
+    if (hit.body < 0 || !exitance_) return Rgb(0);
+    const BodyOptics& optics = *optics_[static_cast<std::size_t>(hit.body)];
     if (!optics.material.multipleScattering) return Rgb(0);
     ++counts.diffusionLookups;
-    return fields_[body]->exitance(hit.bodyFace, hit.barycentrics) *
+    return exitance_->exitance(hit, sampler, counts) *
            optics.radiancePerExitance(bsdf.cosOutgoing());
 }
 
@@ -159,8 +160,8 @@ Rgb PathTracer::followed(Ray ray, ScatterOrigin origin, int bounces, Sampler& sa
         if (isWide) bsdf.roughenForIndirect();
         // Seen at second hand, all that comes from within is taken from the diffusion, unscaled:
         // the profile's total has the light scattered once in it.
-        sum +=
-            throughput * (directLight(hit, bsdf, sampler, counts) + diffusion(hit, bsdf, counts));
+        const Rgb direct = directLight(hit, bsdf, sampler, counts);
+        sum += throughput * (direct + diffusion(hit, bsdf, sampler, counts));
         if (!scatter(hit, bsdf, sampler, ray, origin, throughput)) return sum;
         if (depth + 1 >= kRouletteDepth) {
             const float survival = std::min(0.95f, maxComponent(throughput));
@@ -178,16 +179,13 @@ void PathTracer::shade(const FirstSurface& surface, const Ray& ray, Sampler& sam
     const Bsdf& bsdf = surface.bsdf;
     const int bounces = world_.scene().quality.bounces;
     seen.diffusion = seen.single = seen.surface = Rgb(0);
-    seen.alpha = 1;
-    seen.depth = hit.distance * glm::dot(ray.direction, world_.camera().forward());
-    seen.normal = bsdf.shadingNormal();
-    seen.albedo = bsdf.albedo();
+    describeFirstHit(world_, ray, hit, bsdf, seen);
     // In the diffuse limit, what comes from within is what the surface reflects.
-    Rgb& reflected = hit.body >= 0 && fields_.empty() ? seen.diffusion : seen.surface;
+    Rgb& reflected = hit.body >= 0 && !exitance_ ? seen.diffusion : seen.surface;
     reflected = radianceOfEmitter(world_, ray, hit, {}) + surface.direct;
-    if (hit.body >= 0 && !fields_.empty()) {
+    if (hit.body >= 0 && exitance_) {
         const BodyOptics& optics = *optics_[static_cast<std::size_t>(hit.body)];
-        seen.diffusion = diffusion(hit, bsdf, counts) * optics.multipleScale;
+        seen.diffusion = diffusion(hit, bsdf, sampler, counts) * optics.multipleScale;
         if (optics.material.singleScattering && sampler.next1D() < optics.singleProbability)
             seen.single = single(hit, bsdf, -ray.direction, bounces, sampler, counts) /
                           optics.singleProbability;

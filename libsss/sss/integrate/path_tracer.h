@@ -1,9 +1,9 @@
 #pragma once
 #include "sss/base/sampler.h"
 #include "sss/image/film.h"
-#include "sss/integrate/body_field.h"
 #include "sss/integrate/body_optics.h"
 #include "sss/integrate/bsdf.h"
+#include "sss/integrate/exitance_source.h"
 #include "sss/integrate/light_sampling.h"
 #include "sss/integrate/volume_passage.h"
 #include "sss/world/world.h"
@@ -28,14 +28,14 @@ struct PathCounts {
 };
 
 /// Path tracing with next-event estimation and multiple importance sampling. Translucent bodies
-/// reflect, send out the exitance of their field, and scatter singly; without fields (pass 1) they
-/// stand in their diffuse limit. Volumes in space dim, glow and scatter once a path. Const and
+/// reflect, send out the exitance that a source says, and scatter singly; without a source (pass 1)
+/// they stand in their diffuse limit. Volumes in space dim, glow and scatter once a path. Const and
 /// thread-safe.
 class PathTracer {
 public:
-    /// `optics` by body; `fields` by body, or empty for the diffuse limit. All outlive the tracer.
+    /// `optics` by body; `exitance` null for the diffuse limit. All outlive the tracer.
     PathTracer(const World& world, std::span<const std::unique_ptr<BodyOptics>> optics,
-               std::span<const std::unique_ptr<BodyField>> fields);
+               const ExitanceSource* exitance);
 
     /// The most rays that are traced together.
     static constexpr std::size_t kMostViews = 16;
@@ -67,7 +67,8 @@ public:
                     PathCounts& counts) const;
 
 private:
-    Rgb diffusion(const SurfaceHit& hit, const Bsdf& bsdf, PathCounts& counts) const;
+    Rgb diffusion(const SurfaceHit& hit, const Bsdf& bsdf, Sampler& sampler,
+                  PathCounts& counts) const;
     Rgb single(const SurfaceHit& hit, const Bsdf& bsdf, const Vec3& wo, int bounces,
                Sampler& sampler, PathCounts& counts) const;
     /// The same through surfaces.
@@ -105,7 +106,7 @@ private:
 
     const World& world_;
     std::span<const std::unique_ptr<BodyOptics>> optics_;
-    std::span<const std::unique_ptr<BodyField>> fields_;
+    const ExitanceSource* exitance_;
 };
 
 }  // namespace sss

@@ -1,6 +1,7 @@
 #pragma once
 #include "sss/base/reporter.h"
 #include "sss/image/film.h"
+#include "sss/integrate/body_field.h"
 #include "sss/integrate/path_tracer.h"
 
 #include <span>

@@ -1,21 +1,13 @@
 #include "sss/integrate/transmitted_light.h"
 
 namespace sss {
-namespace {
-
-// A shadow ray stops short of the light by this share, for lights that are geometry.
-constexpr float kShadowShare = 1.0f - 1e-4f;
-
-}  // namespace
 
 Rgb transmittedShare(const World& world, std::span<const BodyMedium> media, const MediumPlace& from,
                      const DirectSample& sample, std::uint64_t& rays) {
     int body = from.body;
     Rgb share(1), emitted(0);
-    Ray ray;
-    ray.origin = from.position;
-    ray.direction = sample.direction;
-    ray.tMax = sample.distance * kShadowShare;
+    Ray ray = shadowRay(from.position, sample);
+    const float end = ray.tMax;
     Hit found;
     Vec3 start = from.position;
     const auto crossSpace = [&](float distance) {
@@ -36,7 +28,7 @@ Rgb transmittedShare(const World& world, std::span<const BodyMedium> media, cons
         body = leaving ? -1 : hit.body;
         start = hit.position;
         ray.origin = world.leave(hit, leaving ? hit.geometricNormal : -hit.geometricNormal);
-        ray.tMax = sample.distance * kShadowShare - glm::distance(from.position, ray.origin);
+        ray.tMax = end - glm::distance(from.position, ray.origin);
         if (!(ray.tMax > 0)) break;
     }
     crossSpace(ray.tMax);

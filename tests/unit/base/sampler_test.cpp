@@ -70,6 +70,22 @@ TEST(Sampler, NumbersTogetherAreThoseAlone) {
     Sampler::next2D({}, {});
 }
 
+TEST(Sampler, BranchesAreStratifiedAndTheirOwn) {
+    std::vector<int> cells(64, 0);
+    double sum = 0;
+    for (std::uint32_t i = 0; i < 64; ++i) {
+        Sampler sampler(9, i), skipping(9, i);
+        Sampler first = sampler.branch(), second = sampler.branch();
+        skipping.skip(2);
+        const float u = first.next1D(), v = second.next1D(), w = sampler.next1D();
+        ++cells[static_cast<std::size_t>(u * 64.0f)];
+        sum += (u - 0.5) * (v - 0.5) + (u - 0.5) * (w - 0.5);
+        EXPECT_EQ(w, skipping.next1D());
+    }
+    for (int count : cells) EXPECT_EQ(count, 1);
+    EXPECT_NEAR(sum / 64, 0.0, 4.0 * std::sqrt(2.0) / 12.0 / 8.0);
+}
+
 // Pictures keep their noise when the sampler is made faster: the numbers of its first version, made
 // with every bit reversed one after the other.
 TEST(Sampler, NumbersStayAsTheyAre) {

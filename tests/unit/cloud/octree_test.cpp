@@ -150,7 +150,7 @@ TEST(Octree, MomentsOfASmallNodeAreThoseOfItsPoints) {
     }
     EXPECT_NEAR(static_cast<double>(node.moments[0]), xx, 1e-5 * xx);
     EXPECT_NEAR(static_cast<double>(node.moments[5]), yz, 1e-5 * xx);
-    EXPECT_NEAR(static_cast<double>(node.thirdMoment), largest, 1e-5 * largest);
+    EXPECT_NEAR(std::pow(static_cast<double>(node.cubicMean), 3), largest, 1e-5 * largest);
     EXPECT_NEAR(static_cast<double>(node.chromaticOffset), farthest, 1e-4 * farthest);
 }
 
@@ -203,7 +203,7 @@ TEST(Octree, DarkCloudHasCentroidsByArea) {
     expectSound(cloud.sorted(), nodes);
     EXPECT_NEAR(static_cast<double>(nodes[0].centroid.x), (4851.0 + 99 * 99) / 198, 1e-4);
     EXPECT_EQ(nodes[0].flux, Rgb(0.0f));
-    EXPECT_EQ(nodes[0].thirdMoment, 0.0f);
+    EXPECT_EQ(nodes[0].cubicMean, 0.0f);
 }
 
 TEST(Octree, OneBrightPointAmongDarkOnes) {
@@ -218,7 +218,7 @@ TEST(Octree, OneBrightPointAmongDarkOnes) {
         ++lit;
         EXPECT_EQ(node.centroid, bright.position);
         EXPECT_FLOAT_EQ(node.flux.y, 3 * bright.areaMm2);
-        EXPECT_EQ(node.thirdMoment, 0.0f);
+        EXPECT_EQ(node.cubicMean, 0.0f);
     }
     EXPECT_GT(lit, 4u);
     EXPECT_LT(lit, 22u);

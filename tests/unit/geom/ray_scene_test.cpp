@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <optional>
 #include <vector>
 
@@ -32,6 +33,43 @@ RayScene sceneOf(const FloatMesh& mesh) {
 }
 
 Ray towards(const Vec3& from, const Vec3& to) { return {from, glm::normalize(to - from)}; }
+
+// Every line that enters a closed mesh leaves it as often, through other faces; the nearest of its
+// hits is the one that intersect() finds, and the next one what it finds behind.
+TEST(RayScene, ForEachHitMeetsThemAll) {
+    const FloatMesh sphere(makeSphere(10)), box(makeBox({4, 3, 50}), Vec3(20, 0, 0));
+    const std::vector<RayScene::Geometry> list{sphere.geometry(1), box.geometry(2)};
+    const RayScene scene(list);
+    Rng rng(5);
+    int most = 0;
+    for (int i = 0; i < 5000; ++i) {
+        const Ray ray = towards(randomDirection(rng) * 60.0f, randomDirection(rng) * 20.0f);
+        std::vector<Hit> hits;
+        scene.forEachHit(ray, [&](const Hit& hit) { hits.push_back(hit); });
+        std::ranges::sort(hits, {}, &Hit::t);
+        ASSERT_EQ(hits.size() % 2, 0u);
+        most = std::max(most, static_cast<int>(hits.size()));
+        Hit nearest;
+        ASSERT_EQ(scene.intersect(ray, nearest), !hits.empty());
+        if (hits.empty()) continue;
+        EXPECT_EQ(hits[0].t, nearest.t);
+        EXPECT_EQ(hits[0].face, nearest.face);
+        EXPECT_EQ(hits[0].normal, nearest.normal);
+        Ray behind = ray;
+        behind.tMin = std::nextafter(hits[0].t, 1e9f);
+        ASSERT_TRUE(scene.intersect(behind, nearest));
+        EXPECT_EQ(hits[1].t, nearest.t);
+        for (std::size_t k = 1; k < hits.size(); ++k)
+            EXPECT_FALSE(hits[k].geometry == hits[k - 1].geometry &&
+                         hits[k].face == hits[k - 1].face);
+        std::size_t ofTheBox = 0, inTheBox = 0;
+        scene.forEachHit(
+            ray, [&](const Hit&) { ++ofTheBox; }, 2);
+        for (const Hit& hit : hits) inTheBox += hit.geometry;
+        EXPECT_EQ(ofTheBox, inTheBox);
+    }
+    EXPECT_EQ(most, 4);
+}
 
 TEST(RayScene, HitsASphereWhereTheFormulaSays) {
     const float radius = 10;

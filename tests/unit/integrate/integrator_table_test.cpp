@@ -78,7 +78,7 @@ TEST(DiffuseLimit, WhiteFurnace) {
 
 // The same bytes twice, by every integrator that needs no cache.
 TEST(IntegratorTable, RendersWithoutFields) {
-    for (const char* name : {"brdf", "volume"}) {
+    for (const char* name : {"brdf", "bssrdf", "volume"}) {
         SceneMaker maker;
         maker.scene.quality.integrator = name;
         maker.scene.camera.position = {0, 0, 9};

@@ -1,0 +1,40 @@
+#include "sss/cloud/error_bound.h"
+
+#include <cmath>
+
+namespace sss {
+namespace {
+
+// What a node leaves out is bounded by the worst direction at the nearest place. True remainders
+// are of third order, with signs that change from node to node: their bounds are added in
+// quadrature, and the root of that sum may be this much above the tolerance. Measured
+// (diffusion_sum_test: half-lit and two-coloured bodies, marble, skim milk and ketchup, groups and
+// single receivers, tolerances 0.1 to 0.0001): 99.9 % of the errors are then below the tolerance,
+// most below a third of it, and the bias below a tenth; with twice as much some are not.
+constexpr double kBoundSlack = 8.0;
+// The share of the tolerance that one node may take at tolerance 0.01. The finer the sum the more
+// nodes there are, about by the fourth root of the tolerance (measured on the bunny).
+constexpr double kNodeShare = 0.2;
+
+}  // namespace
+
+void ErrorBound::add(const ErrorBound& other) {
+    changing += other.changing;
+    steady += other.steady;
+}
+
+DRgb ErrorBound::total() const { return glm::sqrt(changing) / kBoundSlack + steady; }
+
+double nodeShare(double tolerance) {
+    return tolerance * kNodeShare * std::pow(tolerance / 0.01, 0.25);
+}
+
+Rgb shareScale(const Rgb& share) {
+    // Below this single precision ends.
+    constexpr float kLeast = 1e-37f;
+    Rgb scale;
+    for (int c = 0; c < 3; ++c) scale[c] = share[c] > kLeast ? 1.0f / share[c] : 0.0f;
+    return scale;
+}
+
+}  // namespace sss

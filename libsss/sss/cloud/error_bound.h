@@ -1,0 +1,45 @@
+#pragma once
+#include "sss/base/vec.h"
+
+namespace sss {
+
+// What a node leaves out of the sum where it is taken as its moments has two parts, per channel:
+// - of third order, flux x |distance from the centroid|^3 / 6 x third derivative: its sign changes
+//   from node to node, and the parts are added in quadrature. What is due to the receivers' own
+//   distance from the place of expansion has one sign for all the nodes on one side and weighs
+//   more;
+// - where the channels' moments differ from the mean's: of one sign over whole regions (red light
+//   here, blue there); these are added as they stand and weigh more in a node's share.
+
+inline constexpr float kSteadyWeight = 10.0f;
+/// At 1 a box of faces far larger than the mean free path misses a tolerance of 1 % at 1 % of the
+/// receivers, at 2 at 0.3 %, at 4 nowhere.
+inline constexpr float kReachWeight = 4.0f;
+/// A node that adds less than this part of its share is left out. Leaving out is always dark, so it
+/// must not add up to a bias: it takes ten thousands of such nodes to make a hundredth of a share.
+inline constexpr float kNegligibleShare = 1e-6f;
+
+/// The bounds of a whole sum, in shares: divided by what one node may leave out.
+struct ErrorBound {
+    DRgb changing{0};  ///< sum of squares
+    DRgb steady{0};
+
+    void add(const ErrorBound& other);
+    /// Relative to the same unit as the shares; to be kept below tolerance x M.
+    DRgb total() const;
+};
+
+/// |distance|^3 / 6 of the first part: mean over the node's flux, seen from within `reach` mm.
+inline float thirdOrder(float extent, float reach) {
+    const float both = extent + reach;
+    return (kReachWeight * both * both * both - (kReachWeight - 1.0f) * extent * extent * extent) *
+           (1.0f / 6.0f);
+}
+
+/// What a node may leave out relative to M, at a tolerance.
+double nodeShare(double tolerance);
+
+/// 1 / share, and 0 where there is none.
+Rgb shareScale(const Rgb& share);
+
+}  // namespace sss

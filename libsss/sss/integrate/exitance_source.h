@@ -1,0 +1,19 @@
+#pragma once
+#include "sss/base/sampler.h"
+#include "sss/world/world.h"
+
+namespace sss {
+
+struct PathCounts;
+
+/// What multiple scattering sends out of bodies: each way to know it is one of these. Const and
+/// thread-safe.
+class ExitanceSource {
+public:
+    virtual ~ExitanceSource() = default;
+    /// M at a place of a body, W m^-2, or an unbiased estimate of it, by the profile alone (not
+    /// scaled).
+    virtual Rgb exitance(const SurfaceHit& hit, Sampler& sampler, PathCounts& counts) const = 0;
+};
+
+}  // namespace sss

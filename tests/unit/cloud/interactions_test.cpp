@@ -1,0 +1,253 @@
+// The vector loops of the diffusion sum: interactions, expansions, verdicts.
+#include "sss/cloud/interactions.h"
+
+#include "cloud_tools.h"
+#include "sss/base/rng.h"
+#include "sss/cloud/candidates.h"
+#include "sss/cloud/kernel_table.h"
+#include "sss/cloud/local_expansion.h"
+
+#include <gtest/gtest.h>
+#include <hwy/targets.h>
+
+#include <bit>
+
+namespace sss {
+namespace {
+
+using testing::Optics;
+
+InteractionList randomList(std::size_t count, std::uint64_t seed, bool withMoments) {
+    Rng rng(seed);
+    InteractionList list;
+    for (std::size_t i = 0; i < count; ++i) {
+        OctreeNode node;
+        node.centroid = Vec3(rng.uniform(), rng.uniform(), rng.uniform()) * 12.0f;
+        node.flux = {rng.uniform(), 3 * rng.uniform(), i % 5 == 0 ? 0.0f : rng.uniform()};
+        const Vec3 a{rng.uniform(), rng.uniform(), rng.uniform()};
+        for (int k = 0; k < 3; ++k) node.moments[k] = 0.05f * a[k] * a[k];
+        node.moments[3] = 0.05f * a.x * a.y;
+        node.moments[4] = 0.05f * a.x * a.z;
+        node.moments[5] = 0.05f * a.y * a.z;
+        if (withMoments)
+            list.addNode(node);
+        else
+            list.addPoint(node.centroid, node.flux);
+    }
+    list.pad();
+    return list;
+}
+
+void compareWithScalar(const char* target) {
+    const Optics optics("skin1");
+    const KernelTable table(optics.pointers(), 8, 0.1);  // sources beyond the reach, too
+    Rng rng(3);
+    std::vector<Vec3> receivers;
+    for (int i = 0; i < 17; ++i)
+        receivers.push_back(Vec3(rng.uniform(), rng.uniform(), rng.uniform()) * 12.0f);
+    for (const bool withMoments : {false, true})
+        for (const std::size_t count : {0u, 1u, 2u, 63u, 64u, 65u, 200u, 1000u}) {
+            const InteractionList list = randomList(count, count + 1, withMoments);
+            EXPECT_EQ(list.size(), count);
+            std::vector<DRgb> sums(receivers.size(), DRgb(0.25)), expected = sums;
+            accumulate(table, list, withMoments, receivers, sums);
+            accumulateScalar(table, list, withMoments, receivers, expected);
+            for (std::size_t r = 0; r < receivers.size(); ++r)
+                for (int c = 0; c < 3; ++c) {
+                    EXPECT_TRUE(count == 0 || expected[r][c] > 0.25 || count < 64);
+                    EXPECT_NEAR(sums[r][c], expected[r][c], 1e-5 * (expected[r][c] - 0.25) + 1e-12)
+                        << target << " " << count << " " << withMoments;
+                }
+        }
+}
+
+void compareExpansionsWithScalar(const char* target) {
+    const Optics optics("skin1");
+    const KernelTable table(optics.pointers(), 8, 0.1);
+    for (const std::size_t count : {0u, 1u, 63u, 65u, 200u}) {
+        const InteractionList list = randomList(count, count + 1, true);
+        LocalExpansion fast, reference;
+        fast.centre = reference.centre = {3, 20, 5};
+        fast.value = reference.value = DRgb(1e-9);
+        accumulate(table, list, fast);
+        accumulateScalar(table, list, reference);
+        EXPECT_LT(glm::length(fast.value - reference.value), 1e-5 * glm::length(reference.value));
+        const auto close = [&](const auto& a, const auto& b) {
+            double worst = 0, largest = 0;
+            for (std::size_t k = 0; k < a.size(); ++k) {
+                worst = std::max(worst, glm::length(a[k] - b[k]));
+                largest = std::max(largest, glm::length(b[k]));
+            }
+            return worst <= 1e-5 * largest;
+        };
+        EXPECT_TRUE(close(fast.gradient, reference.gradient)) << target << " " << count;
+        EXPECT_TRUE(close(fast.hessian, reference.hessian)) << target << " " << count;
+    }
+}
+
+CandidateList randomCandidates(std::size_t count, bool coloured) {
+    Rng rng(count + 7);
+    CandidateList list;
+    for (std::size_t i = 0; i < count; ++i) {
+        OctreeNode node;
+        node.centroid = Vec3(rng.uniform(), rng.uniform(), rng.uniform()) * 12.0f;
+        node.flux = Rgb(rng.uniform(), i % 5 == 0 ? 0.0f : rng.uniform(), 3 * rng.uniform());
+        if (i % 7 == 0) node.flux = Rgb(0.0f);
+        node.cubicMean = 0.4f * rng.uniform();
+        node.lo = node.centroid - Vec3(0.3f);
+        node.hi = node.centroid + Vec3(0.2f);
+        if (coloured) {
+            node.chromaticOffset = 0.02f * rng.uniform();
+            node.chromaticMoment = 0.02f * rng.uniform();
+        }
+        list.add(node, static_cast<std::uint32_t>(i));
+    }
+    return list;
+}
+
+void compareVerdictsWithScalar(const char* target) {
+    const Optics optics("skin1");
+    const KernelTable table(optics.pointers(), 8, 0.1);
+    std::size_t taken = 0, dark = 0, total = 0;
+    for (const bool coloured : {false, true})
+        for (const float share : {0.0f, 1e-6f, 1e-4f}) {
+            const CandidateList list = randomCandidates(300, coloured);
+            const CellTest cell{{6, 6, 6}, 0.5f, 0.4f, {share, 2 * share, share}};
+            ErrorBound fast, reference;
+            for (const CandidateList::Block& block : list.blocks()) {
+                const Verdict a = judge(table, block, cell, fast);
+                const Verdict b = judgeScalar(table, block, cell, reference);
+                // Fused steps round otherwise: a node may be just on the other side of a limit.
+                EXPECT_LE(std::popcount(a.taken ^ b.taken), 1) << target << " " << share;
+                EXPECT_LE(std::popcount(a.dark ^ b.dark), 1) << target << " " << share;
+                taken += static_cast<std::size_t>(std::popcount(a.taken));
+                dark += static_cast<std::size_t>(std::popcount(a.dark));
+                total += block.count;
+            }
+            for (int c = 0; c < 3; ++c) {
+                EXPECT_NEAR(fast.changing[c], reference.changing[c], 0.02 * reference.changing[c]);
+                EXPECT_NEAR(fast.steady[c], reference.steady[c], 0.02 * reference.steady[c]);
+                EXPECT_EQ(reference.steady[c] > 0, coloured && share > 0 && taken > 0);
+            }
+        }
+    EXPECT_GT(taken, total / 10) << target;
+    EXPECT_GT(dark, total / 20) << target;
+    EXPECT_LT(taken + dark, total) << target;
+}
+
+TEST(Accumulate, EveryInstructionSetAgreesWithTheReference) {
+    const std::int64_t available = hwy::SupportedTargets();
+    int tested = 0;
+    for (std::int64_t bit = 1; bit > 0 && bit <= available; bit <<= 1) {
+        if ((available & bit) == 0) continue;
+        hwy::SetSupportedTargetsForTest(bit);
+        hwy::GetChosenTarget().Update(bit);
+        compareWithScalar(hwy::TargetName(bit));
+        compareExpansionsWithScalar(hwy::TargetName(bit));
+        compareVerdictsWithScalar(hwy::TargetName(bit));
+        ++tested;
+    }
+    hwy::SetSupportedTargetsForTest(0);
+    hwy::GetChosenTarget().DeInit();
+    EXPECT_GT(tested, 0);
+    compareWithScalar(accumulateTarget());
+}
+
+// The polynomial has the sum's own value, slope and curvature: it misses by third order only.
+TEST(LocalExpansion, FollowsTheSumToSecondOrder) {
+    const Optics optics("marble");
+    const KernelTable table(optics.pointers(), 40, 0.1);
+    const InteractionList list = randomList(100, 3, true);
+    LocalExpansion expansion;
+    expansion.centre = {6, 6, 17};  // 5 mm above sources that extend over 0.2 mm
+    accumulateScalar(table, list, expansion);
+    const Vec3 direction = glm::normalize(Vec3(1, 2, -0.5f));
+    double previous = 0;
+    for (const float step : {0.5f, 1.0f, 2.0f}) {
+        const Vec3 place = expansion.centre + direction * step;
+        std::vector<DRgb> sum(1, DRgb(0));
+        accumulateScalar(table, list, true, std::vector<Vec3>{place}, sum);
+        const double miss = glm::length(expansion.at(place) - sum[0]) / glm::length(sum[0]);
+        EXPECT_LT(miss, 0.01 * std::pow(step, 3)) << step;
+        if (previous > 1e-4) {
+            EXPECT_GT(miss / previous, 4);
+        }
+        previous = miss;
+        EXPECT_LT(
+            glm::length(expansion.movedTo({6.5f, 5.6f, 17.3f}).at(place) - expansion.at(place)),
+            1e-6 * glm::length(sum[0]));
+    }
+}
+
+TEST(Accumulate, ListsCanBeUsedAgain) {
+    InteractionList list = randomList(300, 1, true);
+    list.clear();
+    EXPECT_EQ(list.size(), 0u);
+    EXPECT_TRUE(list.blocks().empty());
+    list.addPoint({1, 2, 3}, Rgb(1.0f));
+    list.pad();
+    EXPECT_EQ(list.size(), 1u);
+    const Optics optics("marble");
+    const KernelTable table(optics.pointers(), 20, 0.1);
+    std::vector<DRgb> sums(1, DRgb(0));
+    accumulate(table, list, false, std::vector<Vec3>{{1, 2, 4}}, sums);
+    for (int c = 0; c < 3; ++c)
+        EXPECT_NEAR(sums[0][c], optics.profile(c).reflectance(1), 1e-5 * sums[0][c]);
+}
+
+// One node of 100 points seen from farther and farther away: what the second moments leave out
+// falls with the third power of size / distance, what the centroid alone leaves out with the
+// second.
+TEST(Accumulate, SecondMomentsLeaveOutTheThirdOrder) {
+    const ChannelMedium medium{0, 1, 0, 1.3};  // no absorption: power laws
+    const auto profile = makeProfile("dipole", medium);
+    const KernelTable table({profile.get(), profile.get(), profile.get()}, 1e4, 0.1);
+    Rng rng(21);
+    std::vector<SurfacePoint> points;
+    std::vector<Rgb> irradiance;
+    for (int i = 0; i < 100; ++i) {
+        SurfacePoint p;
+        p.position =
+            Vec3(rng.uniform() * rng.uniform(), rng.uniform(), 0.5f * rng.uniform()) * 20.0f;
+        p.areaMm2 = 0.5f + rng.uniform();
+        points.push_back(p);
+        irradiance.emplace_back(rng.uniform());
+    }
+    // As one node: the root, whatever is below it.
+    std::vector<Vec3> positions;
+    for (const SurfacePoint& p : points) positions.push_back(p.position);
+    std::vector<SurfacePoint> sorted;
+    std::vector<Rgb> sortedIrradiance;
+    for (const std::uint32_t i : mortonOrder(positions)) {
+        sorted.push_back(points[i]);
+        sortedIrradiance.push_back(irradiance[i]);
+    }
+    const CloudView cloud{sorted, sortedIrradiance};
+    const auto nodes = buildOctree(cloud);
+    const DiffusionSum sum(cloud, nodes, table);
+    const auto errorAt = [&](float distance, bool withMoments) {
+        double worst = 0;
+        for (int k = 0; k < 40; ++k) {
+            const float phi = 0.157f * static_cast<float>(k),
+                        z = 0.04f * static_cast<float>(k) - 0.8f;
+            const float s = std::sqrt(1 - z * z);
+            const std::vector<Vec3> at{nodes[0].centroid +
+                                       distance * Vec3(s * std::cos(phi), s * std::sin(phi), z)};
+            InteractionList list;
+            list.addNode(nodes[0]);
+            list.pad();
+            std::vector<DRgb> result(1, DRgb(0));
+            accumulateScalar(table, list, withMoments, at, result);
+            worst = std::max(worst, std::abs(result[0].x / sum.bruteForce(at[0]).x - 1));
+        }
+        return worst;
+    };
+    for (const float distance : {50.0f, 100.0f, 200.0f}) {
+        EXPECT_NEAR(errorAt(distance, true) / errorAt(2 * distance, true), 8, 2.5) << distance;
+        EXPECT_NEAR(errorAt(distance, false) / errorAt(2 * distance, false), 4, 1) << distance;
+    }
+    EXPECT_LT(errorAt(100, true), 0.2 * errorAt(100, false));
+}
+
+}  // namespace
+}  // namespace sss
