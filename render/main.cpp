@@ -78,6 +78,7 @@ void recordRender(RunStats& stats, const Scene& scene, const RenderResult& resul
     stats.count("diffusionEvaluations", result.counts.diffusionLookups);
     stats.count("singleScatteringSamples", result.counts.singleSamples);
     stats.count("scatterings", result.counts.scatterings);
+    stats.count("volumeStretches", result.counts.volumeStretches);
     stats.count("leaks", result.counts.leaks);
     stats.count("lostPaths", result.counts.lost);
     stats.value("integrator", scene.quality.integrator);

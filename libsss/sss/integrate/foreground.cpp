@@ -33,6 +33,7 @@ Foreground::Foreground(const World& world, float reachPixels)
     const Camera& camera = world.camera();
     for (std::size_t object = 0; object < world.objectCount(); ++object)
         addTriangles(world.geometry(object), camera);
+    for (const auto& volume : world.volumes()) add(camera.windowOf(volume->bounds()));
     for (const auto& light : world.lights()) {
         if (light->isDelta()) continue;
         add(camera.windowOf(light->visibleBounds()));

@@ -6,20 +6,6 @@ namespace {
 // A shadow ray stops short of the light by this share, for lights that are geometry.
 constexpr float kShadowShare = 1.0f - 1e-4f;
 
-DirectSample sampleLight(const World& world, const LightPicker::Pick& pick, const Vec3& from,
-                         const Vec2& u) {
-    DirectSample result;
-    const Light& light = *world.lights()[pick.index];
-    const LightSample sample = light.sample(from, u);
-    if (!(sample.pdf > 0) || isZero(sample.radiance)) return result;
-    result.direction = sample.direction;
-    result.distance = sample.distance;
-    result.isDelta = light.isDelta();
-    result.pdf = sample.pdf * pick.pmf;
-    result.radianceOverPdf = sample.radiance / result.pdf;
-    return result;
-}
-
 // Calls visit(weighted radiance, distance from the ray's origin) for each light along a ray of
 // length `distance`, and for some that lie behind that.
 template <typename Visit>
@@ -41,7 +27,22 @@ void forEachSeen(const World& world, const Ray& ray, float distance, const Scatt
 
 DirectSample sampleDirect(const World& world, const Vec3& from, float uPick, const Vec2& u) {
     if (world.picker().empty()) return {};
-    return sampleLight(world, world.picker().pick(uPick), from, u);
+    return sampleDirect(world, world.picker().pick(uPick), from, u);
+}
+
+DirectSample sampleDirect(const World& world, const LightPicker::Pick& pick, const Vec3& from,
+                          const Vec2& u) {
+    DirectSample result;
+    const Light& light = *world.lights()[pick.index];
+    const LightSample sample = light.sample(from, u);
+    if (!(sample.pdf > 0) || isZero(sample.radiance)) return result;
+    result.direction = sample.direction;
+    result.distance = sample.distance;
+    result.isDelta = light.isDelta();
+    result.volume = light.volume();
+    result.pdf = sample.pdf * pick.pmf;
+    result.radianceOverPdf = sample.radiance / result.pdf;
+    return result;
 }
 
 DirectSample sampleDirect(const World& world, const Vec3& from, const Vec3& normal,
@@ -61,22 +62,21 @@ DirectSample sampleDirect(const World& world, const Vec3& from, const Vec3& norm
         sampler.skip();
         return {};
     }
-    return sampleLight(world, pick, from, sampler.next2D());
+    return sampleDirect(world, pick, from, sampler.next2D());
 }
 
 Ray shadowRay(const Vec3& from, const DirectSample& sample) {
     return {from, sample.direction, 0.0f, sample.distance * kShadowShare};
 }
 
-bool isVisible(const World& world, const Vec3& from, const DirectSample& sample) {
-    return !world.rays().occluded(shadowRay(from, sample));
-}
-
 Rgb radianceOfLights(const World& world, const Ray& ray, float distance,
                      const ScatterOrigin& origin) {
     Rgb sum(0);
     forEachSeen(world, ray, distance, origin, [&](const Rgb& radiance, float lightDistance) {
-        if (!(lightDistance > distance)) sum += radiance;
+        if (lightDistance > distance) return;
+        sum += world.hasVolumes()
+                   ? radiance * world.volumesAlong(ray, lightDistance).transmittance()
+                   : radiance;
     });
     return sum;
 }

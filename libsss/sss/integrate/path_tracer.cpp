@@ -2,6 +2,7 @@
 
 #include "sss/base/assert.h"
 #include "sss/base/inline_vector.h"
+#include "sss/integrate/arriving_light.h"
 #include "sss/integrate/first_hit.h"
 #include "sss/integrate/single_scatter.h"
 
@@ -29,6 +30,7 @@ void PathCounts::add(const PathCounts& other) {
     scatterings += other.scatterings;
     leaks += other.leaks;
     lost += other.lost;
+    volumeStretches += other.volumeStretches;
 }
 
 PathTracer::PathTracer(const World& world, std::span<const std::unique_ptr<BodyOptics>> optics,
@@ -43,7 +45,7 @@ Bsdf PathTracer::bsdfAt(const SurfaceHit& hit, const Vec3& wo) const {
 }
 
 Rgb PathTracer::openLight(const SurfaceHit& hit, const Bsdf& bsdf, Sampler& sampler,
-                          Ray& shadow) const {
+                          ShadowRay& shadow) const {
     if (!bsdf.hasSmoothPart()) {
         sampler.skip(2);
         return Rgb(0);
@@ -55,17 +57,40 @@ Rgb PathTracer::openLight(const SurfaceHit& hit, const Bsdf& bsdf, Sampler& samp
     if (isZero(value)) return Rgb(0);
     const float weight =
         direct.isDelta ? 1.0f : powerHeuristic(direct.pdf, bsdf.pdf(direct.direction));
-    shadow = shadowRay(from, direct);
+    shadow = {shadowRay(from, direct), direct.volume};
     return value * direct.radianceOverPdf * weight;
 }
 
 Rgb PathTracer::directLight(const SurfaceHit& hit, const Bsdf& bsdf, Sampler& sampler,
                             PathCounts& counts) const {
-    Ray shadow;
+    ShadowRay shadow;
     const Rgb light = openLight(hit, bsdf, sampler, shadow);
     if (isZero(light)) return Rgb(0);
-    ++counts.rays;
-    return world_.rays().occluded(shadow) ? Rgb(0) : light;
+    return light * arrivingShare(world_, shadow.ray, shadow.volume, counts.rays);
+}
+
+VolumePassage PathTracer::throughVolumes(const PathStretch& stretch, int bounces, Sampler& sampler,
+                                         PathCounts& counts) const {
+    ++counts.volumeStretches;
+    return passVolumes(
+        world_, stretch, sampler,
+        [&](const Ray& ray, const Vec3& from, float pdf) {
+            return incoming(ray, {from, pdf, true}, std::min(bounces, 1), sampler, counts);
+        },
+        counts.rays);
+}
+
+void PathTracer::putInFront(const Ray& ray, float distance, Sampler& sampler, FilmSample& seen,
+                            PathCounts& counts) const {
+    if (world_.hasVolumes()) {
+        const VolumePassage passage =
+            throughVolumes({ray, distance, {}}, world_.scene().quality.bounces, sampler, counts);
+        seen.diffusion *= passage.transmittance;
+        seen.single *= passage.transmittance;
+        seen.surface = seen.surface * passage.transmittance + passage.radiance;
+        seen.alpha = std::max(seen.alpha, 1 - meanComponent(passage.transmittance));
+    }
+    seen.surface += radianceOfLights(world_, ray, distance, {});
 }
 
 Rgb PathTracer::diffusion(const SurfaceHit& hit, const Bsdf& bsdf, Sampler& sampler,
@@ -108,15 +133,23 @@ bool PathTracer::scatter(const SurfaceHit& hit, const Bsdf& bsdf, Sampler& sampl
 Rgb PathTracer::followed(Ray ray, ScatterOrigin origin, int bounces, Sampler& sampler,
                          PathCounts& counts) const {
     Rgb sum(0), throughput(1);
+    const bool afterVolume = origin.afterVolume;
     bool isWide = false;
     for (int depth = 0;; ++depth) {
-        if (depth >= bounces && !world_.hasEmitters())
+        if (depth >= bounces && !world_.hasUnseenLight())
             return sum + throughput * radianceOfOpenLights(world_, ray, origin, counts.rays);
         Hit found;
         ++counts.rays;
         const bool isHit = world_.rays().intersect(ray, found);
         const float distance = isHit ? found.t : kInfinity;
         sum += throughput * radianceOfLights(world_, ray, distance, origin);
+        if (world_.hasVolumes()) {
+            origin.afterVolume = afterVolume;
+            const VolumePassage passage =
+                throughVolumes({ray, distance, origin}, bounces, sampler, counts);
+            sum += throughput * passage.radiance;
+            throughput *= passage.transmittance;
+        }
         if (!isHit) return sum;
         const SurfaceHit hit = world_.surfaceAt(found);
         sum += throughput * radianceOfEmitter(world_, ray, hit, origin);
@@ -145,10 +178,11 @@ void PathTracer::shade(const FirstSurface& surface, const Ray& ray, Sampler& sam
     const SurfaceHit& hit = surface.hit;
     const Bsdf& bsdf = surface.bsdf;
     const int bounces = world_.scene().quality.bounces;
-    seen.diffusion = seen.single = Rgb(0);
+    seen.diffusion = seen.single = seen.surface = Rgb(0);
     describeFirstHit(world_, ray, hit, bsdf, seen);
-    seen.surface = radianceOfLights(world_, ray, hit.distance, {}) +
-                   radianceOfEmitter(world_, ray, hit, {}) + surface.direct;
+    // In the diffuse limit, what comes from within is what the surface reflects.
+    Rgb& reflected = hit.body >= 0 && !exitance_ ? seen.diffusion : seen.surface;
+    reflected = radianceOfEmitter(world_, ray, hit, {}) + surface.direct;
     if (hit.body >= 0 && exitance_) {
         const BodyOptics& optics = *optics_[static_cast<std::size_t>(hit.body)];
         seen.diffusion = diffusion(hit, bsdf, sampler, counts) * optics.multipleScale;
@@ -167,7 +201,7 @@ void PathTracer::shade(const FirstSurface& surface, const Ray& ray, Sampler& sam
         sampler.skip();
     else if (!(sampler.next1D() < survival))
         return;
-    seen.surface += throughput / survival * incoming(next, origin, bounces, sampler, counts);
+    reflected += throughput / survival * incoming(next, origin, bounces, sampler, counts);
 }
 
 void PathTracer::trace(std::span<const Ray> rays, std::span<Sampler> samplers,
@@ -185,15 +219,19 @@ void PathTracer::trace(std::span<const Ray> rays, std::span<Sampler> samplers,
     for (std::size_t i = 0; i < rays.size(); ++i) {
         if (found[i].geometry == kNoGeometry) {
             seen[i] = {};
-            seen[i].surface = radianceOfLights(world_, rays[i], kInfinity, {});
+            putInFront(rays[i], kInfinity, samplers[i], seen[i], counts);
             continue;
         }
         FirstSurface& surface = surfaces.emplace_back(*this, found[i], -rays[i].direction, i);
-        Ray shadow;
+        ShadowRay shadow;
         const Rgb light = openLight(surface.hit, surface.bsdf, samplers[i], shadow);
         if (isZero(light)) continue;
         surface.direct = light;
-        shadows.emplace_back(shadow);
+        if (world_.hasVolumes()) {
+            surface.direct *= arrivingShare(world_, shadow.ray, shadow.volume, counts.rays);
+            continue;
+        }
+        shadows.emplace_back(shadow.ray);
         lit.emplace_back(&surface);
     }
     const std::uint64_t occluded = world_.rays().occludedTogether(
@@ -202,8 +240,11 @@ void PathTracer::trace(std::span<const Ray> rays, std::span<Sampler> samplers,
     counts.rays += shadows.size();
     for (std::size_t k = 0; k < lit.size(); ++k)
         if (occluded >> k & 1) lit[k]->direct = Rgb(0);
-    for (const FirstSurface& surface : surfaces)
-        shade(surface, rays[surface.view], samplers[surface.view], seen[surface.view], counts);
+    for (const FirstSurface& surface : surfaces) {
+        const std::size_t i = surface.view;
+        shade(surface, rays[i], samplers[i], seen[i], counts);
+        putInFront(rays[i], surface.hit.distance, samplers[i], seen[i], counts);
+    }
 }
 
 }  // namespace sss
