@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """The benchmark: what translucency costs and what error it has, always side by side.
 
-    run.py [--smoke | --quick | --full] [--only frame,scaling,hierarchy] [--out DIR] [--fresh]
+    run.py [--smoke | --quick | --full] [--only frame,scaling,hierarchy,pictures] [--out DIR] [--fresh]
 
 Needs a release build (sss-preprocess, sss-render, sss-bench; SSS_BIN_DIR, or build/release/bin);
 run.sh beside this file makes one first. Writes DIR/bench.json, CSV tables and, with Debian's
@@ -18,6 +18,8 @@ import sys
 import frame
 import hierarchy
 import machine
+import models
+import pictures
 import tables
 from programs import BIN, SOURCE, BenchError
 
@@ -28,6 +30,11 @@ SCALES = {
         "referenceSamples": 32, "frameReceivers": 128,
         "points": [1e4], "tolerances": [0.1, 0.01], "receivers": 64, "rounds": 1,
         "scenes": ["ketchup-slab"], "hierarchyTolerance": 0.5,
+        "pictureScenes": ["ketchup-slab"], "pictureSize": 32, "pictureRuns": 1,
+        "pictureTolerances": [0.5, 0.1], "pictureSamples": [2, 8], "pictureDenser": 2,
+        "pictureLight": 32, "pictureTruth": 0.05, "pictureReceivers": 128,
+        "pictureAngles": [0.1, 0.01], "volumeSamples": 2, "volumeSeconds": 0.3, "volumeSeeds": 3,
+        "models": ["dipole", "better_dipole"], "modelSamples": 8, "modelTolerance": 0.1,
     },
     # Some minutes: rough figures, reference 4 times as dense.
     "quick": {
@@ -35,6 +42,12 @@ SCALES = {
         "referenceSamples": 64, "frameReceivers": 768,
         "points": [1e4, 3e4, 1e5], "tolerances": [0.1, 0.01, 0.001, 0.0001], "receivers": 512,
         "rounds": 2, "scenes": list(hierarchy.SCENES), "hierarchyTolerance": 0.1,
+        "pictureScenes": list(hierarchy.SCENES), "pictureSize": 96, "pictureRuns": 1,
+        "pictureTolerances": [0.1, 0.03, 0.01], "pictureSamples": [4, 32, 256], "pictureDenser": 3,
+        "pictureLight": 48, "pictureTruth": 0.002, "pictureReceivers": 384,
+        "pictureAngles": [0.3, 0.1, 0.03, 0.01, 0.003], "volumeSamples": 4,
+        "volumeSeconds": 24, "volumeSeeds": 4, "modelSamples": 32, "modelTolerance": 0.03,
+        "models": ["dipole", "better_dipole", "photon_beam", "normalized_diffusion"],
     },
     # All of it. The reference's many points average their own noise out, so that few light samples
     # are enough: "of the reference" says how well.
@@ -44,9 +57,14 @@ SCALES = {
         "points": [1e4, 3e4, 1e5, 3e5, 1e6, 3e6, 1e7],
         "tolerances": [0.1, 0.03, 0.01, 0.003, 0.001, 0.0003, 0.0001], "receivers": 1024,
         "rounds": 3, "scenes": list(hierarchy.SCENES), "hierarchyTolerance": 0,
+        "pictureScenes": list(hierarchy.SCENES), "pictureSize": 128, "pictureRuns": 2,
+        "pictureTolerances": [0.1, 0.03, 0.01, 0.003], "pictureSamples": [16, 64, 256, 1024],
+        "pictureDenser": 3, "pictureLight": 48, "pictureTruth": 0.001, "pictureReceivers": 768,
+        "pictureAngles": [0.3, 0.1, 0.03, 0.01, 0.003, 0.001], "volumeSamples": 16,
+        "volumeSeconds": 500, "volumeSeeds": 6, "modelSamples": 64, "modelTolerance": 0.01, "models": list(models.MODELS),
     },
 }
-PARTS = ("frame", "scaling", "hierarchy")
+PARTS = ("frame", "scaling", "hierarchy", "pictures")
 
 
 def arguments():
@@ -88,6 +106,8 @@ def main():
         result["scaling"] = hierarchy.scaling(scale)
     if "hierarchy" in options.parts:
         result["scenes"] = hierarchy.scenes(scale, options)
+    if "pictures" in options.parts:
+        result["pictures"] = pictures.measure(scale, options)
     (options.out / "bench.json").write_text(json.dumps(result, indent=1) + "\n")
     tables.write(result, options.out)
     draw(result, options.out)
