@@ -230,6 +230,13 @@ def volume(truth, reference):
             "noise": True, "curve": curve}
 
 
+NOTES = {
+    "cached": "Both with the same {samples} camera samples a pixel.",
+    "bssrdf": "Both with the same {samples} camera samples a pixel.",
+    "volume": "Here the reference is the dipole's, converged: noise and the model's error.",
+}
+
+
 def side_by_side(stage, methods, reference):
     """[{label, picture, reference, errorImage}]: of each method its best picture."""
     shown = []
@@ -238,13 +245,15 @@ def side_by_side(stage, methods, reference):
         if "file" not in best:
             continue
         samples = method.get("samples", best["setting"])
-        expected = reference.picture(samples)
+        most = max(stage.scale["pictureSamples"])
+        expected = reference.picture(samples if method["name"] != "volume" else most)
         file = stage.folder / best["file"]
         errors = file.with_suffix(".error.png")
         programs.compare(file, expected["file"], LAYER, error_image=errors)
         shown.append({"name": method["name"], "label": method["label"],
                       "setting": f"{method['setting']} {best['setting']:g}",
                       "error": best["error"], "seconds": best["seconds"],
+                      "note": NOTES[method["name"]].format(samples=samples),
                       "picture": place(stage, file.with_suffix(".png")),
                       "reference": place(stage, expected["png"]),
                       "errorImage": place(stage, errors)})

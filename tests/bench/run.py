@@ -1,11 +1,13 @@
 #!/usr/bin/env python3
 """The benchmark: what translucency costs and what error it has, always side by side.
 
-    run.py [--smoke | --quick | --full] [--only frame,scaling,hierarchy,pictures] [--out DIR] [--fresh]
+    run.py [--smoke | --quick | --full] [--only frame,scaling,hierarchy,pictures] [--out DIR]
+           [--fresh] [--peer mitsuba]
 
 Needs a release build (sss-preprocess, sss-render, sss-bench; SSS_BIN_DIR, or build/release/bin);
-run.sh beside this file makes one first. Writes DIR/bench.json, CSV tables and, with Debian's
-python3-matplotlib, plots. README.md beside this file says what each figure means.
+run.sh beside this file makes one first. Writes DIR/report.html, DIR/bench.json, CSV tables,
+the README's tables as tables.md and, with Debian's python3-matplotlib, charts. README.md beside
+this file says what each figure means.
 """
 
 import argparse
@@ -15,11 +17,13 @@ import os
 import pathlib
 import sys
 
+import figures
 import frame
 import hierarchy
 import machine
 import models
 import pictures
+import report
 import tables
 from programs import BIN, SOURCE, BenchError
 
@@ -111,17 +115,20 @@ def main():
     (options.out / "bench.json").write_text(json.dumps(result, indent=1) + "\n")
     tables.write(result, options.out)
     draw(result, options.out)
+    (options.out / "tables.md").write_text(figures.markdown(result))
+    report.write(result, options.out)
     print(tables.summary(result))
-    print(f"wrote {options.out}")
+    print(figures.text(result))
+    print(f"wrote {options.out}, for reading report.html")
 
 
 def draw(result, folder):
     try:
-        import plots
+        import charts
     except ImportError as error:
         print(f"no plots: {error.name} is missing (apt-get install python3-matplotlib)")
         return
-    plots.draw(result, folder)
+    charts.draw(result, folder)
 
 
 if __name__ == "__main__":
