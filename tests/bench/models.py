@@ -18,9 +18,11 @@ class Truth:
     def __init__(self, stage, first_seed):
         self.stage, self.first_seed = stage, first_seed
         self.compared = {}
-        self.samples = [stage.scale["volumeSamples"]]
-        # As many as the time allows for all seeds.
-        while (4 * self.seconds(self.samples[-1]) * stage.scale["volumeSeeds"]
+        fewest, most = stage.scale["volumeSamples"]
+        self.samples = [fewest]
+        # As many as the CPU time allows for all seeds.
+        while (4 * self.samples[-1] <= most
+               and 4 * self.seconds(self.samples[-1]) * stage.scale["volumeSeeds"]
                < stage.scale["volumeSeconds"]):
             self.samples.append(4 * self.samples[-1])
 

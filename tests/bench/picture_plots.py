@@ -1,17 +1,24 @@
 """Charts of whole pictures: error over time, and the models' own errors."""
 
+from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
+
 from plots import COLOURS, log_axis, panels, percent
 
 METHOD_COLOURS = {"cached": COLOURS["ours"], "solid-angle": COLOURS["solid-angle"],
                   "brute-force": COLOURS["brute-force"], "bssrdf": "#009e73", "volume": "#b0589a"}
 
 
-def seconds(value):
-    """1 s, 1 min and so on, for an axis of decades."""
-    for unit, size in (("d", 86400), ("h", 3600), ("min", 60)):
-        if value >= 2 * size:
-            return f"{value / size:,.0f} {unit}"
-    return f"{value:g} s"
+TIMES = {0.01: "0.01 s", 0.1: "0.1 s", 1: "1 s", 10: "10 s", 60: "1 min", 600: "10 min",
+         3600: "1 h", 36000: "10 h", 864000: "10 d", 8640000: "100 d"}
+
+
+def time_axis(axis):
+    """Seconds as people say them, nearly a decade apart."""
+    low, high = axis.get_view_interval()
+    ticks = [time for time in TIMES if low <= time <= high]
+    axis.set_major_locator(FixedLocator(ticks))
+    axis.set_minor_locator(NullLocator())
+    axis.set_major_formatter(FuncFormatter(lambda value, _: TIMES[value]))
 
 
 def error_over_time(scenes):
@@ -31,7 +38,7 @@ def error_over_time(scenes):
             draw_method(axis, method, points)
         axis.set_ylim(axis.get_ylim()[0], min(30, 2 * highest))
         axis.set_xlim(axis.get_xlim()[0], 3 * axis.get_xlim()[1])
-        log_axis(axis.xaxis, seconds)
+        time_axis(axis.xaxis)
         log_axis(axis.yaxis, percent)
     place_legend(figure, axes[0])
     return figure

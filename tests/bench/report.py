@@ -78,7 +78,7 @@ def chart(folder, name, caption):
 
 def cell(text, kind):
     """A cell, left if it is text; **bold** as in Markdown."""
-    left = "" if re.match(r"^[-+≈<]?\s?[\d.]|^-?$", text) else ' class="text"'
+    left = "" if re.match(r"^[-+≈*]*\s?[\d.]|^-?$", text) else ' class="text"'
     if kind == "th":
         left = ' class="text"' if text in TEXT_HEADS else ""
     bold = re.sub(r"\*\*(.+?)\*\*", r"<strong>\1</strong>", html.escape(text))

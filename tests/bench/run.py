@@ -22,6 +22,7 @@ import frame
 import hierarchy
 import machine
 import models
+import peer
 import pictures
 import report
 import tables
@@ -37,7 +38,7 @@ SCALES = {
         "pictureScenes": ["ketchup-slab"], "pictureSize": 32, "pictureRuns": 1,
         "pictureTolerances": [0.5, 0.1], "pictureSamples": [2, 8], "pictureDenser": 2,
         "pictureLight": 32, "pictureTruth": 0.05, "pictureReceivers": 128,
-        "pictureAngles": [0.1, 0.01], "volumeSamples": 2, "volumeSeconds": 0.3, "volumeSeeds": 3,
+        "pictureAngles": [0.1, 0.01], "volumeSamples": [2, 8], "volumeSeconds": 1e9, "volumeSeeds": 3,
         "models": ["dipole", "better_dipole"], "modelSamples": 8, "modelTolerance": 0.1,
     },
     # Some minutes: rough figures, reference 4 times as dense.
@@ -48,9 +49,9 @@ SCALES = {
         "rounds": 2, "scenes": list(hierarchy.SCENES), "hierarchyTolerance": 0.1,
         "pictureScenes": list(hierarchy.SCENES), "pictureSize": 96, "pictureRuns": 1,
         "pictureTolerances": [0.1, 0.03, 0.01], "pictureSamples": [4, 32, 256], "pictureDenser": 3,
-        "pictureLight": 48, "pictureTruth": 0.002, "pictureReceivers": 384,
-        "pictureAngles": [0.3, 0.1, 0.03, 0.01, 0.003], "volumeSamples": 4,
-        "volumeSeconds": 24, "volumeSeeds": 4, "modelSamples": 32, "modelTolerance": 0.03,
+        "pictureLight": 48, "pictureTruth": 0.003, "pictureReceivers": 384,
+        "pictureAngles": [0.3, 0.1, 0.03, 0.01], "volumeSamples": [4, 16384],
+        "volumeSeconds": 24, "volumeSeeds": 4, "modelSamples": 32, "modelTolerance": 0.05,
         "models": ["dipole", "better_dipole", "photon_beam", "normalized_diffusion"],
     },
     # All of it. The reference's many points average their own noise out, so that few light samples
@@ -61,10 +62,10 @@ SCALES = {
         "points": [1e4, 3e4, 1e5, 3e5, 1e6, 3e6, 1e7],
         "tolerances": [0.1, 0.03, 0.01, 0.003, 0.001, 0.0003, 0.0001], "receivers": 1024,
         "rounds": 3, "scenes": list(hierarchy.SCENES), "hierarchyTolerance": 0,
-        "pictureScenes": list(hierarchy.SCENES), "pictureSize": 128, "pictureRuns": 2,
-        "pictureTolerances": [0.1, 0.03, 0.01, 0.003], "pictureSamples": [16, 64, 256, 1024],
-        "pictureDenser": 3, "pictureLight": 48, "pictureTruth": 0.001, "pictureReceivers": 768,
-        "pictureAngles": [0.3, 0.1, 0.03, 0.01, 0.003, 0.001], "volumeSamples": 16,
+        "pictureScenes": list(hierarchy.SCENES), "pictureSize": 256, "pictureRuns": 2,
+        "pictureTolerances": [0.1, 0.03, 0.01, 0.003], "pictureSamples": [16, 64, 256],
+        "pictureDenser": 4, "pictureLight": 48, "pictureTruth": 0.001, "pictureReceivers": 768,
+        "pictureAngles": [0.3, 0.1, 0.03, 0.01, 0.003, 0.001], "volumeSamples": [16, 16384],
         "volumeSeconds": 500, "volumeSeeds": 6, "modelSamples": 64, "modelTolerance": 0.01, "models": list(models.MODELS),
     },
 }
@@ -80,6 +81,8 @@ def arguments():
     parser.add_argument("--cache", type=pathlib.Path, default=SOURCE / "build/bench-cache",
                         help="where costly references are kept")
     parser.add_argument("--fresh", action="store_true", help="make the references again")
+    parser.add_argument("--peer", choices=["mitsuba"], help="install Mitsuba 3 under build/ and "
+                        "put its volpathmis beside volume; for --full")
     parser.set_defaults(scale="quick")
     options = parser.parse_args()
     options.parts = options.only.split(",")
@@ -112,6 +115,8 @@ def main():
         result["scenes"] = hierarchy.scenes(scale, options)
     if "pictures" in options.parts:
         result["pictures"] = pictures.measure(scale, options)
+        if options.peer:
+            result["peer"] = peer.measure(scale, options, result["pictures"])
     (options.out / "bench.json").write_text(json.dumps(result, indent=1) + "\n")
     tables.write(result, options.out)
     draw(result, options.out)
