@@ -74,7 +74,9 @@ def percent(value, digits=2):
 
 
 def spread(value, error):
-    """In percent, with its standard error."""
+    """In percent, with its standard error; what noise hides is below it."""
+    if value == 0:
+        return f"< {100 * error:.0f} %"
     digits = 1 if error >= 0.0005 else 2
     return f"{100 * value:.{digits}f} ± {100 * error:.{digits}f} %"
 

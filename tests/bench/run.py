@@ -38,7 +38,8 @@ SCALES = {
         "pictureScenes": ["ketchup-slab"], "pictureSize": 32, "pictureRuns": 1,
         "pictureTolerances": [0.5, 0.1], "pictureSamples": [2, 8], "pictureDenser": 2,
         "pictureLight": 32, "pictureTruth": 0.05, "pictureReceivers": 128,
-        "pictureAngles": [0.1, 0.01], "volumeSamples": [2, 8], "volumeSeconds": 1e9, "volumeSeeds": 3,
+        "pictureAngles": [0.1, 0.01], "volumeSamples": [8, 32], "volumeSeconds": 1e9,
+        "volumeSeeds": 3,
         "models": ["dipole", "better_dipole"], "modelSamples": 8, "modelTolerance": 0.1,
     },
     # Some minutes: rough figures, reference 4 times as dense.
@@ -66,7 +67,7 @@ SCALES = {
         "pictureTolerances": [0.1, 0.03, 0.01, 0.003], "pictureSamples": [16, 64, 256],
         "pictureDenser": 4, "pictureLight": 48, "pictureTruth": 0.001, "pictureReceivers": 768,
         "pictureAngles": [0.3, 0.1, 0.03, 0.01, 0.003, 0.001], "volumeSamples": [16, 16384],
-        "volumeSeconds": 500, "volumeSeeds": 6, "modelSamples": 64, "modelTolerance": 0.01, "models": list(models.MODELS),
+        "volumeSeconds": 300, "volumeSeeds": 6, "modelSamples": 64, "modelTolerance": 0.01, "models": list(models.MODELS),
     },
 }
 PARTS = ("frame", "scaling", "hierarchy", "pictures")
