@@ -13,6 +13,7 @@
 #include "sss/image/png_file.h"
 #include "sss/image/tone_map.h"
 #include "sss/integrate/cloud_cache.h"
+#include "sss/integrate/exitance_cache.h"
 #include "sss/integrate/integrator_table.h"
 #include "sss/integrate/renderer.h"
 #include "sss/scene/boundary_override.h"
@@ -78,6 +79,7 @@ void recordRender(RunStats& stats, const Scene& scene, const RenderResult& resul
     stats.count("diffusionEvaluations", result.counts.diffusionLookups);
     stats.count("singleScatteringSamples", result.counts.singleSamples);
     stats.count("scatterings", result.counts.scatterings);
+    stats.count("volumeStretches", result.counts.volumeStretches);
     stats.count("leaks", result.counts.leaks);
     stats.count("lostPaths", result.counts.lost);
     stats.value("integrator", scene.quality.integrator);
@@ -188,12 +190,17 @@ int run(int argc, const char* const* argv) {
         clouds.made = runPassOne(*world, optics, {options->maxPoints}, reporter, stats);
     }
     std::vector<std::unique_ptr<BodyField>> fields;
+    std::optional<ExitanceCache> kept;
     RenderResult result;
     {
         const auto timer = stats.seconds("render");
         for (std::size_t b = 0; needsFields && b < world->bodies().size(); ++b)
             fields.push_back(std::make_unique<BodyField>(
                 world->bodies()[b], *optics[b], clouds.view(b), world->scene().quality.tolerance));
+        if (clouds.cache && !options->noKeep) {
+            kept.emplace(options->cache, *world, optics);
+            stats.count("exitanceGroupsReused", kept->load(fields, reporter));
+        }
         result = render(*world, optics, fields, reporter);
     }
     warnOfFlaws(result, reporter);
@@ -201,6 +208,7 @@ int run(int argc, const char* const* argv) {
     {
         const auto timer = stats.seconds("write");
         writePictures(*options, world->scene(), result.image, reporter);
+        if (kept) kept->save(fields, reporter);
     }
     recordRender(stats, world->scene(), result, fields);
     stats.value("threads", ThreadLimit::current());

@@ -21,6 +21,19 @@ class Same(CliTest):
                 self.assertEqual(self.bytes_of(f"{name}.{kind}"), self.bytes_of(f"one.{kind}"),
                                  f"{name}.{kind} differs from that of one thread")
 
+    def test_volumes(self):
+        """Fog and a flame: in both passes."""
+        scene = self.write_scene(volumes=[
+            {"shape": "box", "size": [30, 30, 30], "sigmaSPerMm": 0.01, "sigmaAPerMm": 0.002},
+            {"shape": "sphere", "radius": 2, "sigmaAPerMm": [0.1, 0.2, 0.3], "emission": 50,
+             "transform": [{"translate": [0, 9, 2]}]}])
+        for threads in (1, 2, 3):
+            self.assert_ok(self.render(scene, "-o", f"{threads}.exr", "--threads", threads))
+        for threads in (2, 3):
+            self.assertEqual(self.bytes_of(f"{threads}.exr"), self.bytes_of("1.exr"))
+        self.assert_ok(self.render(self.write_scene("clear.json"), "-o", "clear.exr"))
+        self.assertNotEqual(self.bytes_of("clear.exr"), self.bytes_of("1.exr"))
+
     def test_cache_in_memory_or_in_a_file(self):
         scene = self.write_scene()
         self.assert_ok(self.preprocess(scene, "-o", "out.ssc"))

@@ -1,5 +1,8 @@
 #include "sss/base/sampler.h"
 
+#include "sss/base/assert.h"
+
+#include <algorithm>
 #include <array>
 
 namespace sss {
@@ -16,36 +19,39 @@ constexpr std::uint32_t laineKarras(std::uint32_t x, std::uint32_t seed) {
     return x;
 }
 
-// Second Sobol dimension (van der Corput in the Pascal matrix), as its bits come out: reversed.
-constexpr std::uint32_t sobolSecondByBits(std::uint32_t index) {
-    std::uint32_t result = 0;
-    for (std::uint32_t v = 1u << 31; index; index >>= 1, v ^= v >> 1)
-        if (index & 1u) result ^= v;
-    return result;
+// Second Sobol dimension, its bits reversed: the Pascal matrix modulo 2, which by Lucas' theorem is
+// the fifth Kronecker power of a matrix of 2 x 2, and so a step for each.
+constexpr std::uint32_t sobolSecondReversed(std::uint32_t index) {
+    index ^= index >> 16 & 0x0000ffffu;
+    index ^= index >> 8 & 0x00ff00ffu;
+    index ^= index >> 4 & 0x0f0f0f0fu;
+    index ^= index >> 2 & 0x33333333u;
+    return index ^ (index >> 1 & 0x55555555u);
 }
 
-// The matrix is linear, so indices, which are shuffled over all 32 bits, are taken byte by byte.
-// The table holds it between two bit reversals, which neither side of it then needs.
-constexpr auto kSobolBytes = [] {
-    std::array<std::array<std::uint32_t, 256>, 4> table{};
-    for (std::uint32_t byte = 0; byte < 4; ++byte)
-        for (std::uint32_t value = 0; value < 256; ++value)
-            table[byte][value] = reverseBits(sobolSecondByBits(reverseBits(value << (8 * byte))));
-    return table;
-}();
+// What a pair of numbers is scrambled by, in all samples of a pixel.
+struct PairSeeds {
+    PairSeeds(std::uint64_t seed, std::uint32_t dimension) {
+        const std::uint64_t hash = combineSeeds(seed, dimension);
+        shuffle = static_cast<std::uint32_t>(hash);
+        x = static_cast<std::uint32_t>(hash >> 32);
+        y = static_cast<std::uint32_t>(mix64(hash + 1) >> 32);
+    }
+    std::uint32_t shuffle, x, y;
+};
 
-constexpr std::uint32_t sobolSecondReversed(std::uint32_t reversedIndex) {
-    return kSobolBytes[0][reversedIndex & 255u] ^ kSobolBytes[1][reversedIndex >> 8 & 255u] ^
-           kSobolBytes[2][reversedIndex >> 16 & 255u] ^ kSobolBytes[3][reversedIndex >> 24];
+// The shuffle is an Owen scramble of the index's reversed bits; the radical inverse of the shuffled
+// index is that again, whose own scramble acts on the shuffled index.
+Vec2 pairOf(std::uint32_t reversedIndex, const PairSeeds& seeds) {
+    const std::uint32_t index = reverseBits(laineKarras(reversedIndex, seeds.shuffle));
+    return {unitFloat(reverseBits(laineKarras(index, seeds.x))),
+            unitFloat(reverseBits(laineKarras(sobolSecondReversed(index), seeds.y)))};
 }
 
 }  // namespace
 
 Sampler::Sampler(std::uint64_t seed, std::uint32_t index)
     : seed_(seed), index_(index), reversedIndex_(reverseBits(index)) {}
-
-// The shuffle is an Owen scramble of the index's reversed bits; the radical inverse of the shuffled
-// index is that again, whose own scramble acts on the shuffled index.
 
 float Sampler::next1D() {
     const std::uint64_t hash = combineSeeds(seed_, dimension_++);
@@ -54,18 +60,29 @@ float Sampler::next1D() {
         reverseBits(laineKarras(reverseBits(reversed), static_cast<std::uint32_t>(hash >> 32))));
 }
 
-Vec2 Sampler::next2D() {
-    const std::uint64_t hash = combineSeeds(seed_, dimension_++);
-    const std::uint64_t hash2 = mix64(hash + 1);
-    const std::uint32_t reversed = laineKarras(reversedIndex_, static_cast<std::uint32_t>(hash));
-    const std::uint64_t x =
-        laineKarras(reverseBits(reversed), static_cast<std::uint32_t>(hash >> 32));
-    const std::uint64_t y =
-        laineKarras(sobolSecondReversed(reversed), static_cast<std::uint32_t>(hash2 >> 32));
-    // Both in one go, which also exchanges them.
-    const std::uint64_t both = reverseBits(x | y << 32);
-    return {unitFloat(static_cast<std::uint32_t>(both >> 32)),
-            unitFloat(static_cast<std::uint32_t>(both))};
+Vec2 Sampler::next2D() { return pairOf(reversedIndex_, {seed_, dimension_++}); }
+
+void Sampler::next2D(std::span<Sampler> samplers, std::span<Vec2> values) {
+    if (samplers.empty()) return;
+    const std::uint64_t seed = samplers.front().seed_;
+    const std::uint32_t dimension = samplers.front().dimension_;
+    const PairSeeds seeds(seed, dimension);
+    // Apart from the samplers, so that several go through the same steps at once.
+    constexpr std::size_t kChunk = 16;
+    for (std::size_t first = 0; first < samplers.size(); first += kChunk) {
+        const std::span<Sampler> some =
+            samplers.subspan(first, std::min(kChunk, samplers.size() - first));
+        std::array<std::uint32_t, kChunk> indices{};
+        for (std::size_t i = 0; i < some.size(); ++i) {
+            SSS_ASSERT_EQ(some[i].seed_, seed);
+            SSS_ASSERT_EQ(some[i].dimension_, dimension);
+            indices[i] = some[i].reversedIndex_;
+            ++some[i].dimension_;
+        }
+        std::array<Vec2, kChunk> pairs;
+        for (std::size_t i = 0; i < kChunk; ++i) pairs[i] = pairOf(indices[i], seeds);
+        std::copy_n(pairs.begin(), some.size(), values.begin() + first);
+    }
 }
 
 }  // namespace sss

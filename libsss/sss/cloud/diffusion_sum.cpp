@@ -1,6 +1,7 @@
 #include "sss/cloud/diffusion_sum.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace sss {
 namespace {
@@ -9,6 +10,9 @@ constexpr int kMostRounds = 8;
 // Receivers whose bounds are taken together: fewer see the near nodes more exactly, more share the
 // walk through the tree.
 constexpr std::uint32_t kReceiversPerLeaf = 8;
+// A leaf sums over every point that is about as near as its receivers are to each other. Where the
+// points are far denser than the receivers, that is more than each would need for itself.
+constexpr float kMostSpacingsPerLeaf = 4.0f;
 // Opening rule of the estimate: node radius against distance.
 constexpr float kCoarseOpening = 0.6f;
 constexpr std::uint32_t kRoot = 0;
@@ -29,7 +33,13 @@ void SumCounts::add(const SumCounts& other) {
 
 DiffusionSum::DiffusionSum(const CloudView& cloud, std::span<const OctreeNode> nodes,
                            const KernelTable& table)
-    : cloud_(cloud), nodes_(nodes), table_(table) {}
+    : cloud_(cloud),
+      nodes_(nodes),
+      table_(table),
+      mostLeafRadius_(nodes.empty() || cloud.size() == 0
+                          ? 0.0f
+                          : kMostSpacingsPerLeaf * std::sqrt(nodes[kRoot].areaMm2 /
+                                                             static_cast<float>(cloud.size()))) {}
 
 DRgb DiffusionSum::estimate(const ReceiverCell& cell, Scratch& scratch, SumCounts& counts) const {
     DRgb sum{0};
@@ -150,7 +160,7 @@ void DiffusionSum::evaluate(std::span<const Vec3> receivers, double tolerance, s
     if (nodes_.empty() || receivers.empty()) return;
     counts.receivers += receivers.size();
     ++counts.groups;
-    buildReceiverTree(receivers, kReceiversPerLeaf, scratch.cells, scratch.order);
+    buildReceiverTree(receivers, kReceiversPerLeaf, mostLeafRadius_, scratch.cells, scratch.order);
     scratch.ordered.clear();
     for (const std::uint32_t i : scratch.order) scratch.ordered.push_back(receivers[i]);
     scratch.sums.assign(receivers.size(), DRgb(0));

@@ -41,10 +41,10 @@ void measureLoops(const TriangleMesh& mesh, const std::vector<OpenEdge>& open, M
     }
 }
 
-void inspectEdges(const TriangleMesh& mesh, MeshReport& report) {
+void inspectEdges(const TriangleMesh& mesh, const EdgeTable& edges, MeshReport& report) {
     std::vector<OpenEdge> open;
     bool everyEdgeEven = true;
-    EdgeTable(mesh).forEachEdge([&](std::span<const FaceSide> sides) {
+    edges.forEachEdge([&](std::span<const FaceSide> sides) {
         const FaceSide& first = sides[0];
         if (sides.size() % 2 != 0) everyEdgeEven = false;
         if (sides.size() == 1) open.push_back({first.lo, first.hi});
@@ -57,8 +57,8 @@ void inspectEdges(const TriangleMesh& mesh, MeshReport& report) {
     if (!open.empty()) measureLoops(mesh, open, report);
 }
 
-void inspectWinding(const TriangleMesh& mesh, MeshReport& report) {
-    const WindingPlan plan = planWinding(mesh);
+void inspectWinding(const TriangleMesh& mesh, const EdgeTable& edges, MeshReport& report) {
+    const WindingPlan plan = planWinding(mesh, edges);
     report.components = plan.components.size();
     for (const WindingPlan::Component& component : plan.components) {
         report.closedComponents += component.closed ? 1 : 0;
@@ -146,8 +146,9 @@ MeshReport inspectMesh(const TriangleMesh& mesh) {
     MeshReport report;
     report.vertices = mesh.positions.size();
     report.faces = mesh.faces.size();
-    inspectEdges(mesh, report);
-    inspectWinding(mesh, report);
+    const EdgeTable edges(mesh);
+    inspectEdges(mesh, edges, report);
+    inspectWinding(mesh, edges, report);
     for (FaceIndex face = 0; face < mesh.faces.size(); ++face)
         report.degenerateFaces += isDegenerate(mesh, face) ? 1 : 0;
     const std::vector<bool> duplicate = findDuplicateFaces(mesh);

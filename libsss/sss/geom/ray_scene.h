@@ -61,9 +61,11 @@ public:
     /// intersect() for rays that start close together and go the same way, as those through one
     /// pixel do: cheaper together. Hits of rays that hit nothing have kNoGeometry.
     void intersectTogether(std::span<const Ray> rays, std::span<Hit> hits) const;
-    /// The same for rays to one light; the bit i of the result is set if ray i, of at most 64, is
-    /// occluded.
-    std::uint64_t occludedTogether(std::span<const Ray> rays) const;
+    /// Whether rays go the same way too: through one pixel, or to one point.
+    enum class Together { Parted, Parallel };
+    /// Occlusion of rays that start close together; the bit i of the result is set if ray i, of at
+    /// most 64, is occluded.
+    std::uint64_t occludedTogether(std::span<const Ray> rays, Together together) const;
     const Bounds& bounds() const { return bounds_; }
 
     /// Where a hit lies, and where the next ray starts.

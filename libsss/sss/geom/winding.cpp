@@ -1,7 +1,6 @@
 #include "sss/geom/winding.h"
 
 #include "sss/base/parallel.h"
-#include "sss/geom/edges.h"
 
 #include <algorithm>
 
@@ -58,8 +57,8 @@ double windingNumber(const TriangleMesh& mesh, const std::vector<FaceIndex>& fac
 
 class Planner {
 public:
-    explicit Planner(const TriangleMesh& mesh)
-        : mesh_(mesh), edges_(mesh), neighbours_(findNeighbours(mesh, edges_)) {
+    Planner(const TriangleMesh& mesh, const EdgeTable& edges)
+        : mesh_(mesh), edges_(edges), neighbours_(findNeighbours(mesh, edges_)) {
         plan_.componentOfFace.assign(mesh.faces.size(), WindingPlan::kNoComponent);
         plan_.flip.assign(mesh.faces.size(), false);
     }
@@ -178,7 +177,7 @@ private:
     }
 
     const TriangleMesh& mesh_;
-    EdgeTable edges_;
+    const EdgeTable& edges_;
     std::vector<Neighbours> neighbours_;
     WindingPlan plan_;
     std::vector<std::vector<FaceIndex>> members_;
@@ -186,6 +185,8 @@ private:
 
 }  // namespace
 
-WindingPlan planWinding(const TriangleMesh& mesh) { return Planner(mesh).run(); }
+WindingPlan planWinding(const TriangleMesh& mesh, const EdgeTable& edges) {
+    return Planner(mesh, edges).run();
+}
 
 }  // namespace sss

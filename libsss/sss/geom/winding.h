@@ -1,4 +1,5 @@
 #pragma once
+#include "sss/geom/edges.h"
 #include "sss/geom/triangle_mesh.h"
 
 #include <cstdint>
@@ -29,7 +30,10 @@ struct WindingPlan {
 /// they enclose a meaningful volume about their centre: above 1 % of area^1.5 (a sphere has 9.4 %);
 /// flatter ones keep the winding of most of their area. Edges of three or more faces separate
 /// components. Near linear, but for nesting, where each component is tested against those whose
-/// boxes enclose its own.
-WindingPlan planWinding(const TriangleMesh& mesh);
+/// boxes enclose its own. `edges` are the mesh's.
+WindingPlan planWinding(const TriangleMesh& mesh, const EdgeTable& edges);
+inline WindingPlan planWinding(const TriangleMesh& mesh) {
+    return planWinding(mesh, EdgeTable(mesh));
+}
 
 }  // namespace sss

@@ -89,9 +89,9 @@ private:
     template <typename T>
     void add(const ImageLayer& layer, int width, Imf::PixelType type,
              std::vector<std::vector<T>>& store, float largest) {
-        std::vector<T>& values = store.emplace_back();
-        values.reserve(layer.values.size());
-        for (const float value : layer.values) values.push_back(T(storable(value, largest)));
+        std::vector<T>& values = store.emplace_back(layer.values.size());
+        std::ranges::transform(layer.values, values.begin(),
+                               [&](float value) { return T(storable(value, largest)); });
         const std::size_t stride = sizeof(T) * layer.channels.size();
         for (std::size_t c = 0; c < layer.channels.size(); ++c) {
             const std::string name = channelName(layer, layer.channels[c]);

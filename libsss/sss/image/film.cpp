@@ -7,6 +7,8 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
 
 namespace sss {
@@ -70,37 +72,25 @@ const std::vector<FilmLayer> kLayers{
      [](const FilmPixel& p, std::span<float> out) { out[0] = static_cast<float>(p.samples); }},
 };
 
-float lowest(const Rgb& c) { return std::min(c.x, std::min(c.y, c.z)); }
+// A sample's numbers in the order of FilmSample: the first kNotNegative must not be negative, the
+// first kFinite must be finite, the last is the depth.
+using Numbers = std::array<float, 17>;
+static_assert(sizeof(Numbers) == sizeof(FilmSample));
+constexpr std::size_t kNotNegative = 13, kFinite = 16;
 
-// Whether a sample can be kept, of which `radiance` is the sum. A sum in double does not overflow,
-// so it is finite if every part is; NaN and infinity pass through.
-bool isUsable(const FilmSample& s, const DRgb& radiance) {
-    const DVec3 all = radiance + DRgb(s.albedo) + DVec3(s.normal);
-    const float least = std::min(std::min(lowest(s.diffusion), lowest(s.single)),
-                                 std::min(lowest(s.surface), lowest(s.albedo)));
-    return std::isfinite(all.x + all.y + all.z + static_cast<double>(s.alpha)) && least >= 0 &&
-           s.alpha >= 0 && !std::isnan(s.depth);
-}
-
-void gather(const FilmSample& sample, FilmPixel& pixel) {
-    const DRgb diffusion(sample.diffusion), single(sample.single), surface(sample.surface);
-    const DRgb sum = diffusion + single + surface;
-    if (!isUsable(sample, sum)) {
-        ++pixel.dropped;
-        return;
-    }
-    ++pixel.samples;
-    pixel.surface += surface;
-    pixel.squares += sum * sum;
-    pixel.diffusion += diffusion;
-    pixel.single += single;
-    pixel.albedo += DRgb(sample.albedo);
-    pixel.normal += DVec3(sample.normal);
-    pixel.alpha += static_cast<double>(sample.alpha);
-    if (std::isfinite(sample.depth)) {
-        ++pixel.hits;
-        pixel.depth += static_cast<double>(sample.depth);
-    }
+// Apart: inlined, GCC takes the numbers one by one.
+[[gnu::noinline]] bool isUsable(const Numbers& numbers) {
+    // On the bits, which is a few instructions for all numbers together: a number that is not
+    // finite has all bits of its exponent set, and adding one there carries into the sign; one that
+    // is negative has its sign set, and another bit (zero has a sign too).
+    constexpr std::uint32_t kSign = 0x80000000u, kExponent = 0x7f800000u;
+    const auto bits = std::bit_cast<std::array<std::uint32_t, 17>>(numbers);
+    std::uint32_t bad = 0;
+    for (std::size_t i = 0; i < kFinite; ++i)
+        bad |= ((bits[i] & ~kSign) + (kSign - kExponent)) & kSign;
+    for (std::size_t i = 0; i < kNotNegative; ++i)
+        bad |= bits[i] & ((bits[i] & ~kSign) + ~kSign) & kSign;
+    return bad == 0 && !std::isnan(numbers[kFinite]);
 }
 
 const FilmLayer* layerNamed(const std::string& name) {
@@ -112,25 +102,56 @@ const FilmLayer* layerNamed(const std::string& name) {
                 fmt::format("choose from {}", fmt::join(names, ", ")));
 }
 
-ImageLayer beauty(const std::vector<FilmPixel>& pixels) {
-    ImageLayer layer{"", {"R", "G", "B", "A"}, {}, false};
-    layer.values.reserve(pixels.size() * 4);
-    for (const FilmPixel& p : pixels) {
-        const Rgb sum = diffusionOf(p) + singleOf(p) + surfaceOf(p);
-        const double alpha = p.samples == 0 ? 0.0 : p.alpha / p.samples;
-        layer.values.insert(layer.values.end(), {sum.x, sum.y, sum.z, static_cast<float>(alpha)});
-    }
-    return layer;
+void writeBeauty(const FilmPixel& p, std::span<float> channels) {
+    write(diffusionOf(p) + singleOf(p) + surfaceOf(p), channels);
+    channels[3] = p.samples == 0 ? 0.0f : static_cast<float>(p.alpha / p.samples);
+}
+
+const FilmLayer kBeauty{"", {"R", "G", "B", "A"}, false, writeBeauty};
+
+// A layer of `count` pixels that are all alike.
+ImageLayer filled(const FilmLayer& layer, const FilmPixel& pixel, std::size_t count) {
+    std::vector<float> one(layer.channels.size());
+    layer.write(pixel, one);
+    ImageLayer result{std::string(layer.name), layer.channels, {}, layer.fullPrecision};
+    result.values.reserve(count * one.size());
+    for (std::size_t i = 0; i < count; ++i)
+        result.values.insert(result.values.end(), one.begin(), one.end());
+    return result;
 }
 
 }  // namespace
 
 std::span<const FilmLayer> filmLayers() { return kLayers; }
 
-Film::Film(int width, int height, const std::vector<std::string>& layers)
-    : width_(width),
-      height_(height),
-      pixels_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height)) {
+void FilmPixel::add(std::span<const FilmSample> taken) {
+    std::array<double, kFinite> sums{};  // apart, so that the loop over them is a few instructions
+    for (const FilmSample& sample : taken) {
+        const auto numbers = std::bit_cast<Numbers>(sample);
+        if (!isUsable(numbers)) {
+            ++dropped;
+            continue;
+        }
+        ++samples;
+        for (std::size_t i = 0; i < kFinite; ++i) sums[i] += static_cast<double>(numbers[i]);
+        const DRgb radiance = DRgb(sample.diffusion) + DRgb(sample.single) + DRgb(sample.surface);
+        squares += radiance * radiance;
+        if (std::isfinite(sample.depth)) {
+            ++hits;
+            depth += static_cast<double>(sample.depth);
+        }
+    }
+    diffusion += DRgb(sums[0], sums[1], sums[2]);
+    single += DRgb(sums[3], sums[4], sums[5]);
+    surface += DRgb(sums[6], sums[7], sums[8]);
+    alpha += sums[9];
+    albedo += DRgb(sums[10], sums[11], sums[12]);
+    normal += DVec3(sums[13], sums[14], sums[15]);
+}
+
+Film::Film(int width, int height, const std::vector<std::string>& layers,
+           const FilmPixel& everywhere)
+    : layers_{&kBeauty}, image_{width, height, {}, {}} {
     for (const std::string& name : layers) {
         const FilmLayer* layer = layerNamed(name);
         if (std::find(layers_.begin(), layers_.end(), layer) != layers_.end())
@@ -138,43 +159,30 @@ Film::Film(int width, int height, const std::vector<std::string>& layers)
                         fmt::format("layer \"{}\" is asked for twice", name), "name it once");
         layers_.push_back(layer);
     }
+    for (const FilmLayer* layer : layers_)
+        image_.layers.push_back(filled(*layer, everywhere, image_.pixelCount()));
 }
 
-void Film::add(int x, int y, std::span<const FilmSample> samples) {
-    SSS_ASSERT_LT(x, width_);
-    SSS_ASSERT_LT(y, height_);
-    FilmPixel& place = pixels_[static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) +
-                               static_cast<std::size_t>(x)];
-    FilmPixel pixel = place;
-    for (const FilmSample& sample : samples) gather(sample, pixel);
-    place = pixel;
-}
-
-Film::Dropped Film::dropped() const {
-    Dropped result;
-    for (std::size_t i = 0; i < pixels_.size(); ++i) {
-        if (pixels_[i].dropped == 0) continue;
-        if (result.samples == 0) {
-            result.firstX = static_cast<int>(i % static_cast<std::size_t>(width_));
-            result.firstY = static_cast<int>(i / static_cast<std::size_t>(width_));
-        }
-        result.samples += pixels_[i].dropped;
+void Film::set(int x, int y, const FilmPixel& pixel) {
+    SSS_ASSERT_LT(x, image_.width);
+    SSS_ASSERT_LT(y, image_.height);
+    const std::size_t place = static_cast<std::size_t>(y) * static_cast<std::size_t>(image_.width) +
+                              static_cast<std::size_t>(x);
+    for (std::size_t k = 0; k < layers_.size(); ++k) {
+        const std::size_t stride = layers_[k]->channels.size();
+        layers_[k]->write(pixel, {image_.layers[k].values.data() + place * stride, stride});
     }
-    return result;
+    if (pixel.dropped > 0) count(x, y, pixel.dropped);
 }
 
-LayeredImage Film::develop() const {
-    LayeredImage image{width_, height_, {}, {}};
-    image.layers.push_back(beauty(pixels_));
-    for (const FilmLayer* wanted : layers_) {
-        const std::size_t stride = wanted->channels.size();
-        ImageLayer layer{std::string(wanted->name), wanted->channels, {}, wanted->fullPrecision};
-        layer.values.resize(pixels_.size() * stride);
-        for (std::size_t i = 0; i < pixels_.size(); ++i)
-            wanted->write(pixels_[i], std::span(layer.values).subspan(i * stride, stride));
-        image.layers.push_back(std::move(layer));
-    }
-    return image;
+void Film::count(int x, int y, std::uint32_t dropped) {
+    const std::scoped_lock lock(droppedMutex_);
+    const bool isFirst = dropped_.samples == 0 || y < dropped_.firstY ||
+                         (y == dropped_.firstY && x < dropped_.firstX);
+    dropped_.samples += dropped;
+    if (!isFirst) return;
+    dropped_.firstX = x;
+    dropped_.firstY = y;
 }
 
 }  // namespace sss

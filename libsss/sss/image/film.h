@@ -4,9 +4,11 @@
 
 #include <cstdint>
 #include <limits>
+#include <mutex>
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace sss {
@@ -25,13 +27,18 @@ struct FilmSample {
 /// compositing turn infinities into NaN (Arnold's convention).
 inline constexpr float kNoDepth = 1e30f;
 
-/// What a pixel has gathered: sums in double over the samples that were kept.
+/// What a pixel gathers: sums in double over the samples that were kept.
 struct FilmPixel {
     DRgb diffusion{0}, single{0}, surface{0}, squares{0};
     DRgb albedo{0};
     DVec3 normal{0};
     double alpha = 0, depth = 0;
     std::uint32_t samples = 0, hits = 0, dropped = 0;
+
+    /// A sample that is not finite, or whose radiance, alpha or albedo is negative, is dropped
+    /// whole and counted; the mean is then over the others.
+    void add(std::span<const FilmSample> taken);
+    void add(const FilmSample& sample) { add(std::span(&sample, 1)); }
 };
 
 /// A layer that can be asked for beside the beauty: one row of a table.
@@ -48,33 +55,34 @@ struct FilmLayer {
 /// stratified ones), sampleCount. Means are over all kept samples, the background counting as 0.
 std::span<const FilmLayer> filmLayers();
 
-/// Gathers camera samples. Any number of threads may add, each to pixels of its own.
+/// A picture in the making, pixel by pixel. Any number of threads may set pixels of their own.
 class Film {
 public:
-    /// `layers` names what develop() writes beside the beauty, in this order. Throws
-    /// Error{BadInput} for an unknown or repeated name.
-    Film(int width, int height, const std::vector<std::string>& layers);
+    /// `layers` names what is kept beside the beauty, in this order; `everywhere` is what the
+    /// pixels hold that are not set. Throws Error{BadInput} for an unknown or repeated name.
+    Film(int width, int height, const std::vector<std::string>& layers,
+         const FilmPixel& everywhere = {});
 
-    int width() const { return width_; }
-    int height() const { return height_; }
-    /// A sample that is not finite, or whose radiance, alpha or albedo is negative, is dropped
-    /// whole and counted; the mean is then over the others.
-    void add(int x, int y, std::span<const FilmSample> samples);
-    void add(int x, int y, const FilmSample& sample) { add(x, y, std::span(&sample, 1)); }
+    /// Writes a pixel's means.
+    void set(int x, int y, const FilmPixel& pixel);
 
     struct Dropped {
         std::uint64_t samples = 0;
         int firstX = -1, firstY = -1;  ///< first pixel concerned, row by row
     };
-    Dropped dropped() const;
+    /// Of the pixels that were set.
+    const Dropped& dropped() const { return dropped_; }
 
     /// The means: "R,G,B,A", exactly diffusion + single + surface in float, then the layers.
-    LayeredImage develop() const;
+    LayeredImage take() && { return std::move(image_); }
 
 private:
-    int width_, height_;
+    void count(int x, int y, std::uint32_t dropped);
+
     std::vector<const FilmLayer*> layers_;
-    std::vector<FilmPixel> pixels_;
+    LayeredImage image_;
+    std::mutex droppedMutex_;
+    Dropped dropped_;
 };
 
 }  // namespace sss

@@ -74,8 +74,8 @@ void writeCloudCache(const std::filesystem::path& path, const World& world,
         const auto inputs =
             bodyInputs(world, index, pointSpacingMm(world, world.bodies()[b], *optics[b]));
         const Fingerprint points = combined(inputs, {"mesh", "sampling"});
-        const Fingerprint light = combined(
-            inputs, {"mesh", "sampling", "medium", "lights", "surroundings", "irradiance"});
+        const Fingerprint light = combined(inputs, {"mesh", "sampling", "medium", "lights",
+                                                    "volumes", "surroundings", "irradiance"});
         writer.add<SurfacePoint>(kPoints, b, points, clouds[b].points);
         writer.add<Rgb>(kIrradiance, b, light, clouds[b].irradiance);
         writer.add<OctreeNode>(kOctree, b, light, clouds[b].nodes);

@@ -15,12 +15,11 @@ FilmSample DiffuseLimitIntegrator::trace(const Ray& ray, Sampler& sampler,
     if (hit.body < 0) return sample;
     // The tracer shows a body as one diffuse surface; its gloss lies on top.
     const BodyOptics& optics = *optics_[static_cast<std::size_t>(hit.body)];
-    const Rgb inFront = radianceOfLights(world_, ray, found.t, {});
-    if (optics.material.multipleScattering)
-        sample.diffusion = glm::max(sample.surface - inFront, Rgb(0));
-    sample.surface = inFront;
+    if (!optics.material.multipleScattering) sample.diffusion = Rgb(0);
+    const Rgb seen =
+        world_.hasVolumes() ? world_.volumesAlong(ray, found.t).transmittance() : Rgb(1);
     const Bsdf gloss(world_, hit, -ray.direction, &optics, Bsdf::BodyShading::Surface);
-    sample.surface += tracer_.directLight(hit, gloss, sampler, counts);
+    sample.surface += seen * tracer_.directLight(hit, gloss, sampler, counts);
     const Bsdf::Sample next = gloss.sample(sampler.next2D());
     if (!(next.pdf > 0)) return sample;
     Ray reflected;
@@ -29,7 +28,7 @@ FilmSample DiffuseLimitIntegrator::trace(const Ray& ray, Sampler& sampler,
     const ScatterOrigin origin =
         next.isDelta ? ScatterOrigin{} : ScatterOrigin{reflected.origin, next.pdf};
     sample.surface +=
-        next.weight *
+        seen * next.weight *
         tracer_.incoming(reflected, origin, world_.scene().quality.bounces, sampler, counts);
     return sample;
 }

@@ -1,6 +1,7 @@
 #pragma once
 #include "sss/world/world.h"
 
+#include <cstdint>
 #include <vector>
 
 namespace sss {
@@ -11,14 +12,21 @@ class Foreground {
 public:
     /// `reachPixels`: how far from a pixel's centre its samples lie.
     Foreground(const World& world, float reachPixels);
-    bool mayShow(int x, int y) const;
+    bool mayShow(int x, int y) const { return covers_[cell(y) * columns_ + cell(x)] > 0; }
     /// Radiance of the background where mayShow() is false.
     const Rgb& background() const { return background_; }
 
 private:
-    std::vector<Camera::Window> windows_;
+    std::size_t cell(int pixel) const { return static_cast<std::size_t>(pixel / cellPixels_); }
+    void add(const Camera::Window& window);
+    void addTriangles(const RayScene::Geometry& geometry, const Camera& camera);
+    void sumUp();
+
+    int width_, height_;
     float reach_;
-    bool isEverywhere_ = false;
+    int cellPixels_;  // side of a cell
+    std::size_t columns_;
+    std::vector<std::int32_t> covers_;  // by cell, what may show there; differences until sumUp()
     Rgb background_{0.0f};
 };
 

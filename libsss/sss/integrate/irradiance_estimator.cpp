@@ -1,6 +1,7 @@
 #include "sss/integrate/irradiance_estimator.h"
 
 #include "sss/base/warp.h"
+#include "sss/integrate/arriving_light.h"
 #include "sss/optics/fresnel.h"
 
 namespace sss {
@@ -20,10 +21,11 @@ Rgb IrradianceEstimator::direct(const SurfaceHit& hit, const Vec3& normal, const
     if (!(light.pdf > 0)) return Rgb(0);
     const float cosine = glm::dot(light.direction, normal);
     if (cosine <= 0 || glm::dot(light.direction, hit.geometricNormal) <= 0) return Rgb(0);
-    ++counts.rays;
-    if (!isVisible(world_, from, light)) return Rgb(0);
+    const Rgb share = arrivingShare(world_, from, light, counts.rays);
+    if (isZero(share)) return Rgb(0);
     const float weight = light.isDelta ? 1.0f : powerHeuristic(light.pdf, cosine / kPiF);
-    return light.radianceOverPdf * (cosine * (1.0f - fresnelReflectance(cosine, eta_)) * weight);
+    return share * light.radianceOverPdf *
+           (cosine * (1.0f - fresnelReflectance(cosine, eta_)) * weight);
 }
 
 Rgb IrradianceEstimator::scattered(const SurfaceHit& hit, const Vec3& normal, const Vec3& from,

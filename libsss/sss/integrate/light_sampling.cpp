@@ -6,33 +6,19 @@ namespace {
 // A shadow ray stops short of the light by this share, for lights that are geometry.
 constexpr float kShadowShare = 1.0f - 1e-4f;
 
-DirectSample sampleLight(const World& world, const LightPicker::Pick& pick, const Vec3& from,
-                         const Vec2& u) {
-    DirectSample result;
-    const Light& light = *world.lights()[pick.index];
-    const LightSample sample = light.sample(from, u);
-    if (!(sample.pdf > 0) || isZero(sample.radiance)) return result;
-    result.direction = sample.direction;
-    result.distance = sample.distance;
-    result.isDelta = light.isDelta();
-    result.pdf = sample.pdf * pick.pmf;
-    result.radianceOverPdf = sample.radiance / result.pdf;
-    return result;
-}
-
-// Calls visit(weighted radiance, distance from the ray's origin) for each light along a ray.
+// Calls visit(weighted radiance, distance from the ray's origin) for each light along a ray of
+// length `distance`, and for some that lie behind that.
 template <typename Visit>
-void forEachSeen(const World& world, const Ray& ray, const ScatterOrigin& origin,
+void forEachSeen(const World& world, const Ray& ray, float distance, const ScatterOrigin& origin,
                  const Visit& visit) {
     const bool isSampled = std::isfinite(origin.pdf);
-    const Vec3 from = isSampled ? origin.sampledFrom : ray.origin;
+    const Vec3& from = isSampled ? origin.sampledFrom : ray.origin;
     const float behind = isSampled ? glm::dot(ray.origin - from, ray.direction) : 0.0f;
-    for (std::size_t k = 0; k < world.lights().size(); ++k) {
-        const Light& light = *world.lights()[k];
-        if (light.isDelta()) continue;
-        const Light::Seen seen = light.seen(from, ray.direction);
+    for (const World::VisibleLight& visible : world.visibleLights()) {
+        if (visible.isInfinite && std::isfinite(distance)) continue;
+        const Light::Seen seen = visible.light->seen(from, ray.direction);
         if (isZero(seen.radiance)) continue;
-        visit(seen.radiance * powerHeuristic(origin.pdf, seen.pdf * world.picker().pmf(k)),
+        visit(seen.radiance * powerHeuristic(origin.pdf, seen.pdf * visible.pmf),
               seen.distance - behind);
     }
 }
@@ -41,7 +27,22 @@ void forEachSeen(const World& world, const Ray& ray, const ScatterOrigin& origin
 
 DirectSample sampleDirect(const World& world, const Vec3& from, float uPick, const Vec2& u) {
     if (world.picker().empty()) return {};
-    return sampleLight(world, world.picker().pick(uPick), from, u);
+    return sampleDirect(world, world.picker().pick(uPick), from, u);
+}
+
+DirectSample sampleDirect(const World& world, const LightPicker::Pick& pick, const Vec3& from,
+                          const Vec2& u) {
+    DirectSample result;
+    const Light& light = *world.lights()[pick.index];
+    const LightSample sample = light.sample(from, u);
+    if (!(sample.pdf > 0) || isZero(sample.radiance)) return result;
+    result.direction = sample.direction;
+    result.distance = sample.distance;
+    result.isDelta = light.isDelta();
+    result.volume = light.volume();
+    result.pdf = sample.pdf * pick.pmf;
+    result.radianceOverPdf = sample.radiance / result.pdf;
+    return result;
 }
 
 DirectSample sampleDirect(const World& world, const Vec3& from, const Vec3& normal,
@@ -61,22 +62,21 @@ DirectSample sampleDirect(const World& world, const Vec3& from, const Vec3& norm
         sampler.skip();
         return {};
     }
-    return sampleLight(world, pick, from, sampler.next2D());
+    return sampleDirect(world, pick, from, sampler.next2D());
 }
 
 Ray shadowRay(const Vec3& from, const DirectSample& sample) {
     return {from, sample.direction, 0.0f, sample.distance * kShadowShare};
 }
 
-bool isVisible(const World& world, const Vec3& from, const DirectSample& sample) {
-    return !world.rays().occluded(shadowRay(from, sample));
-}
-
 Rgb radianceOfLights(const World& world, const Ray& ray, float distance,
                      const ScatterOrigin& origin) {
     Rgb sum(0);
-    forEachSeen(world, ray, origin, [&](const Rgb& radiance, float lightDistance) {
-        if (!(lightDistance > distance)) sum += radiance;
+    forEachSeen(world, ray, distance, origin, [&](const Rgb& radiance, float lightDistance) {
+        if (lightDistance > distance) return;
+        sum += world.hasVolumes()
+                   ? radiance * world.volumesAlong(ray, lightDistance).transmittance()
+                   : radiance;
     });
     return sum;
 }
@@ -85,7 +85,8 @@ Rgb radianceOfOpenLights(const World& world, const Ray& ray, const ScatterOrigin
                          std::uint64_t& rays) {
     Rgb sum(0);
     bool isNear = false;
-    forEachSeen(world, ray, origin, [&](const Rgb& radiance, float lightDistance) {
+    constexpr float kInfinity = std::numeric_limits<float>::infinity();
+    forEachSeen(world, ray, kInfinity, origin, [&](const Rgb& radiance, float lightDistance) {
         sum += radiance;
         isNear = isNear || std::isfinite(lightDistance);
     });

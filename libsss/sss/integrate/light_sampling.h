@@ -17,8 +17,14 @@ struct DirectSample {
     Rgb radianceOverPdf{0.0f};
     float pdf = 0;  ///< sr^-1, times the probability of the pick; 0 = nothing found
     bool isDelta = false;
+    /// Index of the glowing volume that it looks for, whose emission up to where its ray is stopped
+    /// stands for the radiance; -1 for all other lights.
+    int volume = -1;
 };
 DirectSample sampleDirect(const World& world, const Vec3& from, float uPick, const Vec2& u);
+/// The same of a light that has been picked.
+DirectSample sampleDirect(const World& world, const LightPicker::Pick& pick, const Vec3& from,
+                          const Vec2& u);
 /// The same from a surface of geometric normal `normal`, which light from below does not reach;
 /// takes two numbers of the sampler, but computes only those that it needs.
 DirectSample sampleDirect(const World& world, const Vec3& from, const Vec3& normal,
@@ -26,24 +32,23 @@ DirectSample sampleDirect(const World& world, const Vec3& from, const Vec3& norm
 
 /// From a point (already off its surface) to just before the end of a DirectSample.
 Ray shadowRay(const Vec3& from, const DirectSample& sample);
-/// Whether nothing stands between a point (already off its surface) and the end of a DirectSample.
-bool isVisible(const World& world, const Vec3& from, const DirectSample& sample);
 
 /// How a ray's direction was chosen, for weighing the lights that it finds against light sampling.
 struct ScatterOrigin {
     Vec3 sampledFrom{};  ///< where light sampling would have started
     float pdf =
         std::numeric_limits<float>::infinity();  ///< sr^-1; infinite for cameras and mirrors
+    bool afterVolume = false;  ///< a volume has scattered the path before: none will again
 };
 /// Radiance of the lights that a ray of length `distance` meets (infinite if it left the scene),
-/// each weighted against light sampling by the power heuristic.
+/// each weighted against light sampling by the power heuristic, less what volumes take of it.
 Rgb radianceOfLights(const World& world, const Ray& ray, float distance,
                      const ScatterOrigin& origin);
-/// The same of all lights along a ray that nothing stands before; `rays` counts what had to be
-/// traced to know, which is nothing where there is no light.
+/// The same of all lights along a ray that nothing stands before, without volumes; `rays` counts
+/// what had to be traced to know, which is nothing where there is no light.
 Rgb radianceOfOpenLights(const World& world, const Ray& ray, const ScatterOrigin& origin,
                          std::uint64_t& rays);
-/// The same for the emitting surface that a ray hit.
+/// The same for the emitting surface that a ray hit, without volumes.
 Rgb radianceOfEmitter(const World& world, const Ray& ray, const SurfaceHit& hit,
                       const ScatterOrigin& origin);
 

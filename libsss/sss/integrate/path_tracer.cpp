@@ -1,12 +1,12 @@
 #include "sss/integrate/path_tracer.h"
 
 #include "sss/base/assert.h"
+#include "sss/base/inline_vector.h"
+#include "sss/integrate/arriving_light.h"
 #include "sss/integrate/first_hit.h"
 #include "sss/integrate/single_scatter.h"
 
 #include <algorithm>
-#include <array>
-#include <optional>
 
 namespace sss {
 namespace {
@@ -30,6 +30,7 @@ void PathCounts::add(const PathCounts& other) {
     scatterings += other.scatterings;
     leaks += other.leaks;
     lost += other.lost;
+    volumeStretches += other.volumeStretches;
 }
 
 PathTracer::PathTracer(const World& world, std::span<const std::unique_ptr<BodyOptics>> optics,
@@ -43,28 +44,53 @@ Bsdf PathTracer::bsdfAt(const SurfaceHit& hit, const Vec3& wo) const {
                 exitance_ ? Bsdf::BodyShading::Surface : Bsdf::BodyShading::DiffuseLimit);
 }
 
-PathTracer::OpenLight PathTracer::openLight(const SurfaceHit& hit, const Bsdf& bsdf,
-                                            Sampler& sampler) const {
+Rgb PathTracer::openLight(const SurfaceHit& hit, const Bsdf& bsdf, Sampler& sampler,
+                          ShadowRay& shadow) const {
     if (!bsdf.hasSmoothPart()) {
         sampler.skip(2);
-        return {};
+        return Rgb(0);
     }
     const Vec3 from = world_.leave(hit, bsdf.geometricNormal());
     const DirectSample direct = sampleDirect(world_, from, bsdf.geometricNormal(), sampler);
-    if (!(direct.pdf > 0)) return {};
+    if (!(direct.pdf > 0)) return Rgb(0);
     const Rgb value = bsdf.evaluate(direct.direction);
-    if (isZero(value)) return {};
+    if (isZero(value)) return Rgb(0);
     const float weight =
         direct.isDelta ? 1.0f : powerHeuristic(direct.pdf, bsdf.pdf(direct.direction));
-    return {value * direct.radianceOverPdf * weight, shadowRay(from, direct)};
+    shadow = {shadowRay(from, direct), direct.volume};
+    return value * direct.radianceOverPdf * weight;
 }
 
 Rgb PathTracer::directLight(const SurfaceHit& hit, const Bsdf& bsdf, Sampler& sampler,
                             PathCounts& counts) const {
-    const OpenLight light = openLight(hit, bsdf, sampler);
-    if (isZero(light.radiance)) return Rgb(0);
-    ++counts.rays;
-    return world_.rays().occluded(light.shadow) ? Rgb(0) : light.radiance;
+    ShadowRay shadow;
+    const Rgb light = openLight(hit, bsdf, sampler, shadow);
+    if (isZero(light)) return Rgb(0);
+    return light * arrivingShare(world_, shadow.ray, shadow.volume, counts.rays);
+}
+
+VolumePassage PathTracer::throughVolumes(const PathStretch& stretch, int bounces, Sampler& sampler,
+                                         PathCounts& counts) const {
+    ++counts.volumeStretches;
+    return passVolumes(
+        world_, stretch, sampler,
+        [&](const Ray& ray, const Vec3& from, float pdf) {
+            return incoming(ray, {from, pdf, true}, std::min(bounces, 1), sampler, counts);
+        },
+        counts.rays);
+}
+
+void PathTracer::putInFront(const Ray& ray, float distance, Sampler& sampler, FilmSample& seen,
+                            PathCounts& counts) const {
+    if (world_.hasVolumes()) {
+        const VolumePassage passage =
+            throughVolumes({ray, distance, {}}, world_.scene().quality.bounces, sampler, counts);
+        seen.diffusion *= passage.transmittance;
+        seen.single *= passage.transmittance;
+        seen.surface = seen.surface * passage.transmittance + passage.radiance;
+        seen.alpha = std::max(seen.alpha, 1 - meanComponent(passage.transmittance));
+    }
+    seen.surface += radianceOfLights(world_, ray, distance, {});
 }
 
 Rgb PathTracer::diffusion(const SurfaceHit& hit, const Bsdf& bsdf, Sampler& sampler,
@@ -104,18 +130,26 @@ bool PathTracer::scatter(const SurfaceHit& hit, const Bsdf& bsdf, Sampler& sampl
     return true;
 }
 
-Rgb PathTracer::incoming(Ray ray, ScatterOrigin origin, int bounces, Sampler& sampler,
+Rgb PathTracer::followed(Ray ray, ScatterOrigin origin, int bounces, Sampler& sampler,
                          PathCounts& counts) const {
     Rgb sum(0), throughput(1);
+    const bool afterVolume = origin.afterVolume;
     bool isWide = false;
     for (int depth = 0;; ++depth) {
-        if (depth >= bounces && !world_.hasEmitters())
+        if (depth >= bounces && !world_.hasUnseenLight())
             return sum + throughput * radianceOfOpenLights(world_, ray, origin, counts.rays);
         Hit found;
         ++counts.rays;
         const bool isHit = world_.rays().intersect(ray, found);
         const float distance = isHit ? found.t : kInfinity;
         sum += throughput * radianceOfLights(world_, ray, distance, origin);
+        if (world_.hasVolumes()) {
+            origin.afterVolume = afterVolume;
+            const VolumePassage passage =
+                throughVolumes({ray, distance, origin}, bounces, sampler, counts);
+            sum += throughput * passage.radiance;
+            throughput *= passage.transmittance;
+        }
         if (!isHit) return sum;
         const SurfaceHit hit = world_.surfaceAt(found);
         sum += throughput * radianceOfEmitter(world_, ray, hit, origin);
@@ -139,15 +173,16 @@ Rgb PathTracer::incoming(Ray ray, ScatterOrigin origin, int bounces, Sampler& sa
     }
 }
 
-FilmSample PathTracer::shade(const FirstSurface& surface, const Ray& ray, Sampler& sampler,
-                             PathCounts& counts) const {
+void PathTracer::shade(const FirstSurface& surface, const Ray& ray, Sampler& sampler,
+                       FilmSample& seen, PathCounts& counts) const {
     const SurfaceHit& hit = surface.hit;
     const Bsdf& bsdf = surface.bsdf;
     const int bounces = world_.scene().quality.bounces;
-    FilmSample seen;
+    seen.diffusion = seen.single = seen.surface = Rgb(0);
     describeFirstHit(world_, ray, hit, bsdf, seen);
-    seen.surface = radianceOfLights(world_, ray, hit.distance, {}) +
-                   radianceOfEmitter(world_, ray, hit, {}) + surface.direct;
+    // In the diffuse limit, what comes from within is what the surface reflects.
+    Rgb& reflected = hit.body >= 0 && !exitance_ ? seen.diffusion : seen.surface;
+    reflected = radianceOfEmitter(world_, ray, hit, {}) + surface.direct;
     if (hit.body >= 0 && exitance_) {
         const BodyOptics& optics = *optics_[static_cast<std::size_t>(hit.body)];
         seen.diffusion = diffusion(hit, bsdf, sampler, counts) * optics.multipleScale;
@@ -158,50 +193,57 @@ FilmSample PathTracer::shade(const FirstSurface& surface, const Ray& ray, Sample
     Ray next;
     ScatterOrigin origin;
     Rgb throughput(1);
-    if (!scatter(hit, bsdf, sampler, next, origin, throughput)) return seen;
+    if (!scatter(hit, bsdf, sampler, next, origin, throughput)) return;
     // A dielectric reflects 4 % of what it sees: not every sample needs to look.
     const float survival =
         std::clamp(kReflectionEffort * maxComponent(throughput), kLeastReflectionShare, 1.0f);
-    if (sampler.next1D() < survival)
-        seen.surface += throughput / survival * incoming(next, origin, bounces, sampler, counts);
-    return seen;
+    if (survival >= 1)
+        sampler.skip();
+    else if (!(sampler.next1D() < survival))
+        return;
+    reflected += throughput / survival * incoming(next, origin, bounces, sampler, counts);
 }
 
 void PathTracer::trace(std::span<const Ray> rays, std::span<Sampler> samplers,
                        std::span<FilmSample> seen, PathCounts& counts) const {
     SSS_ASSERT_LE(rays.size(), kMostViews);
-    std::array<Hit, kMostViews> found;
-    world_.rays().intersectTogether(rays, found);
+    InlineVector<Hit, kMostViews> found;
+    for (std::size_t i = 0; i < rays.size(); ++i) found.emplace_back();
+    world_.rays().intersectTogether(rays, found.span());
     counts.cameraSamples += rays.size();
     counts.rays += rays.size();
 
-    std::array<std::optional<FirstSurface>, kMostViews> surfaces;
-    std::array<Ray, kMostViews> shadows;
-    std::array<FirstSurface*, kMostViews> lit;  // by shadow ray
-    std::size_t shadowCount = 0;
+    InlineVector<FirstSurface, kMostViews> surfaces;
+    InlineVector<Ray, kMostViews> shadows;
+    InlineVector<FirstSurface*, kMostViews> lit;  // by shadow ray
     for (std::size_t i = 0; i < rays.size(); ++i) {
-        if (found[i].geometry == kNoGeometry) continue;
-        const SurfaceHit hit = world_.surfaceAt(found[i]);
-        FirstSurface& surface =
-            surfaces[i].emplace(FirstSurface{hit, bsdfAt(hit, -rays[i].direction)});
-        const OpenLight light = openLight(hit, surface.bsdf, samplers[i]);
-        if (isZero(light.radiance)) continue;
-        surface.direct = light.radiance;
-        shadows[shadowCount] = light.shadow;
-        lit[shadowCount++] = &surface;
-    }
-    const std::uint64_t occluded =
-        world_.rays().occludedTogether(std::span(shadows).first(shadowCount));
-    counts.rays += shadowCount;
-    for (std::size_t k = 0; k < shadowCount; ++k)
-        if (occluded >> k & 1) lit[k]->direct = Rgb(0);
-    for (std::size_t i = 0; i < rays.size(); ++i) {
-        if (surfaces[i]) {
-            seen[i] = shade(*surfaces[i], rays[i], samplers[i], counts);
-        } else {
+        if (found[i].geometry == kNoGeometry) {
             seen[i] = {};
-            seen[i].surface = radianceOfLights(world_, rays[i], kInfinity, {});
+            putInFront(rays[i], kInfinity, samplers[i], seen[i], counts);
+            continue;
         }
+        FirstSurface& surface = surfaces.emplace_back(*this, found[i], -rays[i].direction, i);
+        ShadowRay shadow;
+        const Rgb light = openLight(surface.hit, surface.bsdf, samplers[i], shadow);
+        if (isZero(light)) continue;
+        surface.direct = light;
+        if (world_.hasVolumes()) {
+            surface.direct *= arrivingShare(world_, shadow.ray, shadow.volume, counts.rays);
+            continue;
+        }
+        shadows.emplace_back(shadow.ray);
+        lit.emplace_back(&surface);
+    }
+    const std::uint64_t occluded = world_.rays().occludedTogether(
+        shadows.span(),
+        world_.hasWideLights() ? RayScene::Together::Parted : RayScene::Together::Parallel);
+    counts.rays += shadows.size();
+    for (std::size_t k = 0; k < lit.size(); ++k)
+        if (occluded >> k & 1) lit[k]->direct = Rgb(0);
+    for (const FirstSurface& surface : surfaces) {
+        const std::size_t i = surface.view;
+        shade(surface, rays[i], samplers[i], seen[i], counts);
+        putInFront(rays[i], surface.hit.distance, samplers[i], seen[i], counts);
     }
 }
 

@@ -5,6 +5,7 @@
 #include "sss/integrate/bsdf.h"
 #include "sss/integrate/exitance_source.h"
 #include "sss/integrate/light_sampling.h"
+#include "sss/integrate/volume_passage.h"
 #include "sss/world/world.h"
 
 #include <memory>
@@ -21,13 +22,15 @@ struct PathCounts {
     std::uint64_t scatterings = 0;  ///< inside bodies, one by one (radiative transfer)
     std::uint64_t leaks = 0;        ///< times a path met its body's surface where none should be
     std::uint64_t lost = 0;         ///< paths that did not end
+    std::uint64_t volumeStretches = 0;  ///< of paths, looked at for volumes; 0 without volumes
 
     void add(const PathCounts& other);
 };
 
 /// Path tracing with next-event estimation and multiple importance sampling. Translucent bodies
 /// reflect, send out the exitance that a source says, and scatter singly; without a source (pass 1)
-/// they stand in their diffuse limit. Const and thread-safe.
+/// they stand in their diffuse limit. Volumes in space dim, glow and scatter once a path. Const and
+/// thread-safe.
 class PathTracer {
 public:
     /// `optics` by body; `exitance` null for the diffuse limit. All outlive the tracer.
@@ -51,8 +54,12 @@ public:
 
     /// Radiance that arrives along a ray: lights (weighted by `origin`), and surfaces as long as
     /// `bounces` allows (0 = lights and emitters only).
-    Rgb incoming(Ray ray, ScatterOrigin origin, int bounces, Sampler& sampler,
-                 PathCounts& counts) const;
+    Rgb incoming(const Ray& ray, const ScatterOrigin& origin, int bounces, Sampler& sampler,
+                 PathCounts& counts) const {
+        if (bounces <= 0 && !world_.hasUnseenLight())
+            return radianceOfOpenLights(world_, ray, origin, counts.rays);
+        return followed(ray, origin, bounces, sampler, counts);
+    }
 
     /// Light that reaches a surface straight from a light and is scattered there, by light
     /// sampling, weighted against sampling the BSDF.
@@ -64,20 +71,34 @@ private:
                   PathCounts& counts) const;
     Rgb single(const SurfaceHit& hit, const Bsdf& bsdf, const Vec3& wo, int bounces,
                Sampler& sampler, PathCounts& counts) const;
-    /// A light sample: what it brings if nothing stands on its ray.
-    struct OpenLight {
-        Rgb radiance{0.0f};
-        Ray shadow;
+    /// The same through surfaces.
+    Rgb followed(Ray ray, ScatterOrigin origin, int bounces, Sampler& sampler,
+                 PathCounts& counts) const;
+    /// The way to a light.
+    struct ShadowRay {
+        Ray ray;
+        int volume = -1;  ///< as in DirectSample
     };
-    OpenLight openLight(const SurfaceHit& hit, const Bsdf& bsdf, Sampler& sampler) const;
-    /// What the camera sees.
+    /// What a light sample brings if nothing stands on the way `shadow`, which is set unless that
+    /// is zero.
+    Rgb openLight(const SurfaceHit& hit, const Bsdf& bsdf, Sampler& sampler,
+                  ShadowRay& shadow) const;
+    /// What the camera sees. Made in place: copying what was just written stalls the processor.
     struct FirstSurface {
+        FirstSurface(const PathTracer& tracer, const Hit& found, const Vec3& wo, std::size_t number)
+            : hit(tracer.world_.surfaceAt(found)), bsdf(tracer.bsdfAt(hit, wo)), view(number) {}
         SurfaceHit hit;
         Bsdf bsdf;
+        std::size_t view;  ///< which of those traced together
         Rgb direct{0.0f};
     };
-    FilmSample shade(const FirstSurface& surface, const Ray& ray, Sampler& sampler,
-                     PathCounts& counts) const;
+    void shade(const FirstSurface& surface, const Ray& ray, Sampler& sampler, FilmSample& seen,
+               PathCounts& counts) const;
+    /// Puts volumes and lights between the camera and what is seen, which is `distance` away.
+    void putInFront(const Ray& ray, float distance, Sampler& sampler, FilmSample& seen,
+                    PathCounts& counts) const;
+    VolumePassage throughVolumes(const PathStretch& stretch, int bounces, Sampler& sampler,
+                                 PathCounts& counts) const;
     Bsdf bsdfAt(const SurfaceHit& hit, const Vec3& wo) const;
     /// Draws the next ray; false if the path ends.
     bool scatter(const SurfaceHit& hit, const Bsdf& bsdf, Sampler& sampler, Ray& ray,

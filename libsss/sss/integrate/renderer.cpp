@@ -36,21 +36,29 @@ public:
           foreground_(world, static_cast<float>(filter_.radiusPixels())),
           seed_(combineSeeds(world.scene().quality.seed, 0xca3e7aull)) {}
 
+    /// What is seen where nothing stands before the background.
+    FilmPixel background() const {
+        FilmSample seen;
+        seen.surface = foreground_.background();
+        FilmPixel pixel;
+        for (int i = 0; i < settings_.samples; ++i) pixel.add(seen);
+        return pixel;
+    }
+
     void sample(int x, int y, Film& film, Room& room) const {
-        auto& seen = room.seen;
-        const bool isForeground = foreground_.mayShow(x, y);
-        if (!isForeground) {
+        if (!foreground_.mayShow(x, y)) {
             room.counts.cameraSamples += static_cast<std::uint64_t>(settings_.samples);
-            FilmSample background;
-            background.surface = foreground_.background();
-            seen.fill(background);
+            return;
         }
-        for (int first = 0; first < settings_.samples; first += static_cast<int>(seen.size())) {
+        FilmPixel pixel;
+        for (int first = 0; first < settings_.samples;
+             first += static_cast<int>(room.seen.size())) {
             const std::size_t count =
-                std::min(seen.size(), static_cast<std::size_t>(settings_.samples - first));
-            if (isForeground) look({x, y}, first, count, room);
-            film.add(x, y, std::span(seen).first(count));
+                std::min(room.seen.size(), static_cast<std::size_t>(settings_.samples - first));
+            look({x, y}, first, count, room);
+            pixel.add(std::span(room.seen).first(count));
         }
+        film.set(x, y, pixel);
     }
 
 private:
@@ -62,19 +70,19 @@ private:
         const std::uint64_t seed = combineSeeds(
             seed_, static_cast<std::uint64_t>(pixel.y) << 32 | static_cast<std::uint64_t>(pixel.x));
         const Vec2 centre(static_cast<float>(pixel.x) + 0.5f, static_cast<float>(pixel.y) + 0.5f);
-        for (std::size_t i = 0; i < count; ++i) {
-            Sampler& sampler = room.samplers[i];
-            sampler =
+        for (std::size_t i = 0; i < count; ++i)
+            room.samplers[i] =
                 Sampler(seed, static_cast<std::uint32_t>(first) + static_cast<std::uint32_t>(i));
-            const Vec2 place = centre + filter_.sample(sampler.next2D());
-            Vec2 lens(0.5f);
-            if (camera_.hasLens())
-                lens = sampler.next2D();
-            else
-                sampler.skip();
-            room.rays[i] = camera_.ray(place, lens);
-        }
-        integrator_.traceAll(std::span(room.rays).first(count), room.samplers,
+        const auto samplers = std::span(room.samplers).first(count);
+        std::array<Vec2, Integrator::kMostViews> places, lenses{};
+        Sampler::next2D(samplers, places);
+        if (camera_.hasLens())
+            Sampler::next2D(samplers, lenses);
+        else
+            for (Sampler& sampler : samplers) sampler.skip();
+        for (std::size_t i = 0; i < count; ++i)
+            room.rays[i] = camera_.ray(centre + filter_.sample(places[i]), lenses[i]);
+        integrator_.traceAll(std::span(room.rays).first(count), samplers,
                              std::span(room.seen).first(count), room.counts);
     }
 
@@ -92,7 +100,8 @@ RenderResult render(const World& world, std::span<const std::unique_ptr<BodyOpti
                     std::span<const std::unique_ptr<BodyField>> fields, Reporter& reporter) {
     const FilmSettings& settings = world.scene().film;
     const auto integrator = integratorOf(world.scene()).make({world, optics, fields});
-    Film film(settings.width, settings.height, settings.layers);
+    const PixelSampler pixels(world, *integrator);
+    Film film(settings.width, settings.height, settings.layers, pixels.background());
     RenderResult result;
 
     std::vector<Tile> tiles;
@@ -101,7 +110,6 @@ RenderResult render(const World& world, std::span<const std::unique_ptr<BodyOpti
             tiles.push_back(
                 {x, y, std::min(x + kTile, settings.width), std::min(y + kTile, settings.height)});
     Progress progress(reporter, "render", tiles.size());
-    const PixelSampler pixels(world, *integrator);
     std::mutex mutex;
     parallelFor(tiles.size(), 1, [&](std::size_t begin, std::size_t end) {
         PixelSampler::Room room;
@@ -114,8 +122,8 @@ RenderResult render(const World& world, std::span<const std::unique_ptr<BodyOpti
         const std::scoped_lock lock(mutex);
         result.counts.add(room.counts);
     });
-    result.image = film.develop();
     result.dropped = film.dropped();
+    result.image = std::move(film).take();
     return result;
 }
 

@@ -104,6 +104,29 @@ struct MaterialHasher {
     }
 };
 
+Fingerprint volumesOf(const World& world) {
+    Hasher h;
+    if (world.hasVolumes()) add(h, world.originMm());
+    for (std::size_t v = 0; v < world.volumes().size(); ++v) {
+        const VolumeSettings& settings = world.scene().volumes[v];
+        // Where its cube stands, and what part of it.
+        for (const DVec3& corner : {DVec3(0), DVec3(1, 0, 0), DVec3(0, 1, 0), DVec3(0, 0, 1)})
+            add(h, world.volumes()[v]->worldFromUnit(corner));
+        h.add(static_cast<std::uint64_t>(settings.shape.index()));
+        if (const auto* mesh = std::get_if<MeshFileShape>(&settings.shape)) addFile(h, mesh->path);
+        add(h, settings.sigmaA);
+        add(h, settings.sigmaS);
+        add(h, settings.emission);
+        h.add(settings.g);
+        if (!settings.grid) continue;
+        for (const int n :
+             {settings.grid->nx, settings.grid->ny, settings.grid->nz, settings.grid->channels})
+            h.add(static_cast<std::uint64_t>(n));
+        addFile(h, settings.grid->path);
+    }
+    return h.finish();
+}
+
 Fingerprint lightsOf(const World& world) {
     Hasher h;
     for (const LightSettings& light : world.scene().lights) std::visit(LightHasher{h}, light);
@@ -142,6 +165,7 @@ std::vector<InputFingerprint> bodyInputs(const World& world, int bodyIndex, doub
     inputs.push_back(
         {"sampling", "spacing, tolerance or seed of the points differ", sampling.finish()});
     inputs.push_back({"lights", "the lights are others", lightsOf(world)});
+    inputs.push_back({"volumes", "the volumes in space are others", volumesOf(world)});
     inputs.push_back({"surroundings", "it stands elsewhere, or other objects of the scene differ",
                       surroundingsOf(world, bodyIndex)});
     light.add(static_cast<std::uint64_t>(irradianceSamplesFor(quality)))

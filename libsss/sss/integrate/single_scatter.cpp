@@ -1,6 +1,6 @@
 #include "sss/integrate/single_scatter.h"
 
-#include "sss/integrate/light_sampling.h"
+#include "sss/integrate/arriving_light.h"
 #include "sss/integrate/medium_coefficients.h"
 #include "sss/integrate/smooth_boundary.h"
 #include "sss/optics/fresnel.h"
@@ -105,13 +105,14 @@ private:
         if (!exit || exit->distance >= direct.distance) return Rgb(0);
         DirectSample rest = direct;
         rest.distance -= exit->distance;
-        ++counts.rays;
-        if (!isVisible(world_, exit->outside, rest)) return Rgb(0);
+        const Rgb arriving = arrivingShare(world_, exit->outside, rest, counts.rays);
+        if (isZero(arriving)) return Rgb(0);
         const float weight =
             direct.isDelta
                 ? 1.0f
                 : powerHeuristic(share * direct.pdf, (1 - share) * phasePdf(direct.direction));
-        return entering(medium_, optics_, *exit, out_) * direct.radianceOverPdf * (weight / share);
+        return entering(medium_, optics_, *exit, out_) * arriving * direct.radianceOverPdf *
+               (weight / share);
     }
 
     Rgb byPhase(float lightShare, const Vec2& u, const IncomingRadiance& incoming,

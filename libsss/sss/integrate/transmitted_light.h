@@ -20,9 +20,10 @@ struct MediumPlace {
     int body = -1;  ///< -1 in space
 };
 
-/// Share of the light of a DirectSample that reaches `from`, by channel: straight through bodies
-/// whose index is that of their surroundings, by Beer and Lambert; nothing past opaque surfaces and
-/// through bodies that refract. `media` by body; counts into `rays`.
+/// Share of the light of a DirectSample that reaches `from`, by channel: straight through volumes
+/// and bodies whose index is that of their surroundings, by Beer and Lambert; nothing past opaque
+/// surfaces and through bodies that refract. For a glowing volume, its emission on that way.
+/// `media` by body; counts into `rays`.
 Rgb transmittedShare(const World& world, std::span<const BodyMedium> media, const MediumPlace& from,
                      const DirectSample& sample, std::uint64_t& rays);
 

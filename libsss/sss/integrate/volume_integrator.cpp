@@ -63,6 +63,8 @@ FilmSample VolumeIntegrator::trace(const Ray& ray, Sampler& sampler, PathCounts&
             hit.body >= 0 ? optics_[static_cast<std::size_t>(hit.body)].get() : nullptr;
         const Bsdf bsdf(world_, hit, -ray.direction, optics, Bsdf::BodyShading::Surface);
         describeFirstHit(world_, ray, hit, bsdf, sample);
+    } else if (world_.hasVolumes()) {
+        sample.alpha = 1 - meanComponent(world_.volumesAlong(ray, ray.tMax).transmittance());
     }
     VolumePath(world_, media_, sampler, counts).follow(ray, sample);
     return sample;

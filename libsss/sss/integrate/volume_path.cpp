@@ -1,6 +1,8 @@
 #include "sss/integrate/volume_path.h"
 
+#include "sss/integrate/arriving_light.h"
 #include "sss/integrate/smooth_boundary.h"
+#include "sss/integrate/volume_lobes.h"
 #include "sss/optics/phase.h"
 
 #include <algorithm>
@@ -74,6 +76,15 @@ bool VolumePath::throughSpace() {
     const bool isHit = world_.rays().intersect(ray_, found);
     const float distance = isHit ? found.t : std::numeric_limits<float>::infinity();
     add(radianceOfLights(world_, ray_, distance, origin_));
+    if (world_.hasVolumes()) {
+        ++counts_.volumeStretches;
+        const VolumeSegment volumes = world_.volumesAlong(ray_, distance);
+        add(radianceOfVolumes(world_, volumes, ray_, origin_));
+        const float collision = volumes.sampleCollision(weight_.hero(), sampler_.next1D());
+        if (std::isfinite(collision)) return scatterInVolumes(volumes, collision);
+        const Rgb passed = exponential(volumes.depth()[weight_.hero()] - volumes.depth());
+        weight_.choose(passed, passed);
+    }
     if (!isHit) return false;
     const SurfaceHit hit = world_.surfaceAt(found);
     if (hit.body >= 0 && mediumOf(hit.body).eta == 1.0f) return cross(hit);
@@ -81,6 +92,33 @@ bool VolumePath::throughSpace() {
     if (arrivals_ > world_.scene().quality.bounces) return false;
     ++arrivals_;
     return hit.body >= 0 ? cross(hit) : reflectOpaque(hit);
+}
+
+bool VolumePath::scatterInVolumes(const VolumeSegment& segment, float distanceMm) {
+    const Rgb depth = segment.depthTo(distanceMm);
+    const Rgb reached = exponential(depth[weight_.hero()] - depth);
+    weight_.choose(reached, segment.sigmaT(distanceMm) * reached);
+    const VolumeLobes lobes(segment, distanceMm);
+    const float uPick = sampler_.next1D(), uLobe = sampler_.next1D();
+    const Vec2 uLight = sampler_.next2D(), uPhase = sampler_.next2D();
+    if (lobes.isEmpty(weight_.hero())) return false;
+    ++counts_.scatterings;
+    settle(Layer::Surface);
+    const Vec3 along = ray_.direction, place = ray_.at(distanceMm);
+    const DirectSample direct = sampleDirect(world_, place, uPick, uLight);
+    if (direct.pdf > 0) {
+        const float cosine = glm::dot(along, direct.direction);
+        const float weight = direct.isDelta ? 1.0f : powerHeuristic(direct.pdf, lobes.pdf(cosine));
+        add(lobes.value(cosine) * direct.radianceOverPdf * weight *
+            transmittedShare(world_, media_, {place, -1}, direct, counts_.rays));
+    }
+    startFrom(place, place, lobes.sample(along, uLobe, uPhase, weight_.hero()));
+    const float cosine = glm::dot(along, ray_.direction);
+    const Rgb density(lobes.pdf(cosine, 0), lobes.pdf(cosine, 1), lobes.pdf(cosine, 2));
+    if (!(density[weight_.hero()] > 0)) return false;
+    weight_.choose(lobes.value(cosine), density);
+    origin_ = {place, lobes.pdf(cosine)};
+    return survives();
 }
 
 // The nearest opaque surface, or place where the ray leaves the body, within the ray's reach.

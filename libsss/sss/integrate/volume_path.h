@@ -8,9 +8,9 @@
 
 namespace sss {
 
-/// One path of the radiative transfer, from the camera on: straight lines in space, free paths and
-/// Henyey-Greenstein scattering inside bodies, reflection or refraction at their boundaries, BSDFs
-/// on opaque surfaces. Lights are found where the path meets them and, from everything that
+/// One path of the radiative transfer, from the camera on: free paths and Henyey-Greenstein
+/// scattering inside bodies and in volumes, reflection or refraction at the boundaries of bodies,
+/// BSDFs on opaque surfaces. Lights are found where the path meets them and, from everything that
 /// scatters and is not sealed by a refracting boundary, by light sampling as well.
 class VolumePath {
 public:
@@ -27,6 +27,7 @@ private:
     enum class Layer { Undecided, Surface, Single, Diffusion };
 
     bool throughSpace();
+    bool scatterInVolumes(const VolumeSegment& segment, float distanceMm);
     bool throughMedium();
     bool intersectInside(SurfaceHit& hit);
     bool collideAfter(float distanceMm);

@@ -4,6 +4,7 @@
 
 #include <limits>
 #include <memory>
+#include <optional>
 
 namespace sss {
 
@@ -29,6 +30,19 @@ public:
     virtual bool isInfinite() const { return false; }
     /// Whether the radiance that arrives from infinity is the same from everywhere.
     virtual bool isUniform() const { return false; }
+    /// Its middle, if it has one: whence its light falls off with distance.
+    virtual std::optional<Vec3> centre() const { return {}; }
+    /// mm along a ray; empty if begin >= end.
+    struct Stretch {
+        float begin = 0, end = 0;
+    };
+    /// The part of a stretch that its light can reach: all of it, where that is not easily said.
+    virtual Stretch litStretch(const Vec3& /*origin*/, const Vec3& /*direction*/,
+                               const Stretch& within) const {
+        return within;
+    }
+    /// The index of the volume (World::volumes) whose emission it stands for; -1 for others.
+    virtual int volume() const { return -1; }
     /// What encloses a light that seen() finds at a finite distance; empty for others.
     virtual Bounds visibleBounds() const { return {}; }
     /// Whether directions chosen for how the receiver scatters find it better than sample() does,

@@ -23,6 +23,7 @@ public:
     LightSample sample(const Vec3& from, const Vec2& u) const override;
     Seen seen(const Vec3&, const Vec3&) const override { return {}; }
     bool isBelow(const Vec3& point, const Vec3& normal) const override;
+    std::optional<Vec3> centre() const override { return bounds_.centre(); }
     float importance(const Bounds& target) const override;
 
     /// Radiance that leaves a face of unit normal `faceNormal` (right-hand rule) against a ray that

@@ -18,6 +18,7 @@ public:
     bool isBelow(const Vec3& point, const Vec3& normal) const override {
         return glm::dot(position_ - DVec3(point), DVec3(normal)) <= 0;
     }
+    std::optional<Vec3> centre() const override { return Vec3(position_); }
     float importance(const Bounds& target) const override;
 
 private:

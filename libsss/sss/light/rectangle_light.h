@@ -14,6 +14,7 @@ public:
     Seen seen(const Vec3& from, const Vec3& direction) const override;
     Bounds visibleBounds() const override;
     bool isBelow(const Vec3& point, const Vec3& normal) const override;
+    std::optional<Vec3> centre() const override { return Vec3(centre_); }
     float importance(const Bounds& target) const override;
 
 private:

@@ -20,6 +20,7 @@ public:
     bool isBelow(const Vec3& point, const Vec3& normal) const override {
         return glm::dot(centre_ - DVec3(point), DVec3(normal)) <= -radius_;
     }
+    std::optional<Vec3> centre() const override { return Vec3(centre_); }
     float importance(const Bounds& target) const override;
 
 private:

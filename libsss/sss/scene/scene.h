@@ -152,6 +152,27 @@ struct EnvironmentLight {
 using LightSettings = std::variant<PointLight, SpotLight, DirectionalLight, RectangleLight,
                                    SphereLight, EnvironmentLight>;
 
+/// Values at the nodes of a regular lattice over the bounding box of a volume's shape, the
+/// outermost nodes on its faces, x fastest; little-endian floats in a file without a header.
+struct GridFile {
+    std::filesystem::path path;  ///< absolute, or relative to the scene file (resolved)
+    int nx = 2, ny = 2, nz = 2;  ///< nodes along the axes of the shape, each 2 or more
+    /// 1: the density. 4: the density, and three factors of the emission.
+    int channels = 1;
+};
+/// A participating medium in space: around things, or a thing of its own. It has no boundary that
+/// light would notice.
+struct VolumeSettings {
+    std::string name;
+    Shape shape;  ///< closed
+    std::vector<TransformStep> transform;
+    Rgb sigmaA{0.0f}, sigmaS{0.0f};  ///< mm^-1, where the density is 1
+    double g = 0;                    ///< mean cosine of scattering, Henyey-Greenstein
+    Rgb emission{0.0f};  ///< L_e, W m^-2 sr^-1: sigmaA L_e is emitted along each mm, where 1
+    std::optional<GridFile> grid;  ///< none: the density is 1 everywhere
+    int line = 0, column = 0;      ///< where the volume stands in the scene file
+};
+
 struct QualitySettings {
     double tolerance = 0.01;    ///< relative error asked of diffusion, (0, 0.5]
     double spacingMm = 0;       ///< 0 = from tolerance and mean free path
@@ -171,6 +192,7 @@ struct Scene {
     std::vector<NamedMaterial> materials;
     std::vector<ObjectSettings> objects;
     std::vector<LightSettings> lights;
+    std::vector<VolumeSettings> volumes;
 };
 
 }  // namespace sss

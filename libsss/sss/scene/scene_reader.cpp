@@ -7,6 +7,7 @@
 #include "sss/scene/material_reader.h"
 #include "sss/scene/object_reader.h"
 #include "sss/scene/quality_reader.h"
+#include "sss/scene/volume_reader.h"
 
 #include <fmt/format.h>
 
@@ -39,6 +40,7 @@ constexpr Field<Scene> kSceneFields[] = {
     {"materials", [](Scene& s, const Node& n) { s.materials = readMaterials(n); }, true},
     {"objects", nullptr, true},  // read last, because they name materials
     {"lights", [](Scene& s, const Node& n) { s.lights = readLights(n); }},
+    {"volumes", [](Scene& s, const Node& n) { s.volumes = readVolumes(n); }},
 };
 
 Scene sceneOf(const JsonValue& root, const std::filesystem::path& file,
@@ -76,6 +78,7 @@ std::vector<KeyList> sceneKeys() {
     listMaterialKeys(out);
     listObjectKeys(out);
     listLightKeys(out);
+    listVolumeKeys(out);
     return out;
 }
 

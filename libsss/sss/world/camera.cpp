@@ -60,24 +60,28 @@ Ray Camera::ray(const Vec2& pixel, const Vec2& lens) const {
     return ray;
 }
 
+std::optional<Vec2> Camera::pixelOf(const Vec3& point) const {
+    const DVec3 offset = DVec3(point) - DVec3(position_);
+    const double depth = glm::dot(offset, DVec3(forward_));
+    if (hasLens() || !(depth > 1e-3 * glm::length(offset))) return std::nullopt;
+    const double scale = 1 / (depth * tanPerPixel_);
+    return Vec2(0.5 * width_ + glm::dot(offset, DVec3(right_)) * scale,
+                0.5 * height_ - glm::dot(offset, DVec3(up_)) * scale);
+}
+
 Camera::Window Camera::windowOf(const Bounds& box) const {
     constexpr float kFar = std::numeric_limits<float>::max();
-    constexpr double kMargin = 0.01;  // pixels, for the rounding of ray()
-    if (box.isEmpty()) return {Vec2(kFar), Vec2(-kFar)};
-    DVec2 lo(std::numeric_limits<double>::max()), hi(-lo);
+    Window window{Vec2(kFar), Vec2(-kFar)};
+    if (box.isEmpty()) return window;
     for (int corner = 0; corner < 8; ++corner) {
-        const DVec3 p(corner & 1 ? box.hi.x : box.lo.x, corner & 2 ? box.hi.y : box.lo.y,
-                      corner & 4 ? box.hi.z : box.lo.z);
-        const DVec3 offset = p - DVec3(position_);
-        const double depth = glm::dot(offset, DVec3(forward_));
-        if (hasLens() || !(depth > 1e-3 * glm::length(offset))) return {Vec2(-kFar), Vec2(kFar)};
-        const double scale = 1 / (depth * tanPerPixel_);
-        const DVec2 pixel(0.5 * width_ + glm::dot(offset, DVec3(right_)) * scale,
-                          0.5 * height_ - glm::dot(offset, DVec3(up_)) * scale);
-        lo = glm::min(lo, pixel);
-        hi = glm::max(hi, pixel);
+        const std::optional<Vec2> pixel =
+            pixelOf({corner & 1 ? box.hi.x : box.lo.x, corner & 2 ? box.hi.y : box.lo.y,
+                     corner & 4 ? box.hi.z : box.lo.z});
+        if (!pixel) return {Vec2(-kFar), Vec2(kFar)};
+        window.lo = glm::min(window.lo, *pixel - kPixelError);
+        window.hi = glm::max(window.hi, *pixel + kPixelError);
     }
-    return {Vec2(lo - kMargin), Vec2(hi + kMargin)};
+    return window;
 }
 
 std::array<double, 16> Camera::worldToCamera() const {

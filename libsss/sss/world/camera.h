@@ -5,6 +5,7 @@
 #include "sss/scene/scene.h"
 
 #include <array>
+#include <optional>
 
 namespace sss {
 
@@ -24,6 +25,10 @@ public:
         Vec2 lo, hi;
     };
     Window windowOf(const Bounds& box) const;
+    /// The pixel through which the ray to `point` goes, within kPixelError; none where that is not
+    /// easily said (through a lens, or if the point is not in front).
+    std::optional<Vec2> pixelOf(const Vec3& point) const;
+    static constexpr float kPixelError = 0.01f;
     const Vec3& forward() const { return forward_; }
     /// OpenEXR's worldToCamera and worldToNDC, in scene millimetres (not recentred), row vectors.
     std::array<double, 16> worldToCamera() const;

@@ -3,6 +3,7 @@
 #include "sss/base/error.h"
 #include "sss/light/light_table.h"
 #include "sss/medium/measured_media.h"
+#include "sss/world/volume_loader.h"
 
 #include <fmt/core.h>
 
@@ -20,6 +21,7 @@ World::World(const Scene& scene, Reporter& reporter) : scene_(scene) {
     chooseOrigin(loaded);
     makeBodies(loaded, reporter);
     makeParts(loaded);
+    makeVolumes(reporter);
     makeLights();
     camera_.emplace(scene_.camera, scene_.film.width, scene_.film.height, originMm_);
 }
@@ -116,10 +118,28 @@ void World::makeParts(const std::vector<LoadedObject>& loaded) {
             part.firstBodyFace = body.firstFace[k];
         }
     }
-    for (std::size_t k = 0; k < parts_.size(); ++k)
-        geometries[k] = {parts_[k].positions, parts_[k].faces,
-                         parts_[k].body >= 0 ? bodyMask(parts_[k].body) : 1u};
+    for (std::size_t k = 0; k < parts_.size(); ++k) geometries[k] = geometry(k);
     rays_.emplace(geometries);
+}
+
+void World::makeVolumes(Reporter& reporter) {
+    for (const VolumeSettings& settings : scene_.volumes)
+        volumes_.push_back(loadVolume(settings, scene_, originMm_, reporter));
+}
+
+void World::makeGlows() {
+    glows_.resize(volumes_.size());
+    for (std::size_t v = 0; v < volumes_.size(); ++v) {
+        if (!volumes_[v]->glows()) continue;
+        auto light = std::make_unique<VolumeLight>(*volumes_[v], static_cast<int>(v));
+        glows_[v] = {light.get(), lights_.size()};
+        lights_.push_back(std::move(light));
+    }
+}
+
+RayScene::Geometry World::geometry(std::size_t object) const {
+    const Part& part = parts_[object];
+    return {part.positions, part.faces, part.body >= 0 ? bodyMask(part.body) : 1u};
 }
 
 void World::makeLights() {
@@ -141,11 +161,15 @@ void World::makeLights() {
         emitterIndices_[k] = lights_.size();
         lights_.push_back(std::move(light));
     }
+    makeGlows();
     Bounds target;
     for (const Body& body : bodies_)
         for (const int object : body.objects)
             for (const Vec3& p : parts_[static_cast<std::size_t>(object)].positions) target.add(p);
     picker_.emplace(lights_, target.isEmpty() ? bounds_ : target);
+    for (std::size_t k = 0; k < scene_.lights.size(); ++k)  // emitters come after them
+        if (!lights_[k]->isDelta())
+            visibleLights_.push_back({lights_[k].get(), picker_->pmf(k), lights_[k]->isInfinite()});
 }
 
 void World::addGeometryTo(Hasher& hasher, std::size_t object) const {

@@ -5,12 +5,15 @@
 #include "sss/light/light.h"
 #include "sss/light/light_picker.h"
 #include "sss/light/mesh_light.h"
+#include "sss/light/volume_light.h"
 #include "sss/scene/scene.h"
+#include "sss/volume/volume_segment.h"
 #include "sss/world/body.h"
 #include "sss/world/camera.h"
 
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace sss {
@@ -53,17 +56,42 @@ public:
     }
     const std::vector<std::unique_ptr<Light>>& lights() const { return lights_; }
     const LightPicker& picker() const { return *picker_; }
+    /// A light that Light::seen() can find, and the probability with which picker() picks it.
+    struct VisibleLight {
+        const Light* light;
+        float pmf;
+        bool isInfinite;
+    };
+    std::span<const VisibleLight> visibleLights() const { return visibleLights_; }
+    /// Whether any light is more than a point or a direction.
+    bool hasWideLights() const { return hasEmitters_ || !visibleLights_.empty(); }
     /// The light that an object's faces are, if they are an emitter.
     const MeshLight* emitter(int object) const {
         return emitters_[static_cast<std::size_t>(object)];
     }
-    bool hasEmitters() const { return hasEmitters_; }
+    /// Whether a ray may find light that Light::seen() does not: of surfaces and volumes.
+    bool hasUnseenLight() const { return hasEmitters_ || hasVolumes(); }
     /// Its index among lights().
     std::size_t emitterIndex(int object) const {
         return emitterIndices_[static_cast<std::size_t>(object)];
     }
+    /// Of the surfaces.
     const Bounds& bounds() const { return bounds_; }
 
+    /// Participating media in space, which everything that crosses it must ask about.
+    VolumeList volumes() const { return volumes_; }
+    bool hasVolumes() const { return !volumes_.empty(); }
+    /// What they do along a ray up to `distance`.
+    VolumeSegment volumesAlong(const Ray& ray, float distance) const {
+        return {volumes_, ray.origin, ray.direction, distance};
+    }
+    /// The light that a volume is, if it glows, and the light's index among lights().
+    const VolumeLight* glow(std::size_t volume) const { return glows_[volume].light; }
+    std::size_t glowIndex(std::size_t volume) const { return glows_[volume].index; }
+
+    /// An object's triangles as they stand in the world.
+    RayScene::Geometry geometry(std::size_t object) const;
+    std::size_t objectCount() const { return parts_.size(); }
     /// Adds an object's surface, as it stands in the world, to a content hash.
     void addGeometryTo(Hasher& hasher, std::size_t object) const;
 
@@ -86,7 +114,9 @@ private:
     void chooseOrigin(const std::vector<LoadedObject>& loaded);
     void makeBodies(const std::vector<LoadedObject>& loaded, Reporter& reporter);
     void makeParts(const std::vector<LoadedObject>& loaded);
+    void makeVolumes(Reporter& reporter);
     void makeLights();
+    void makeGlows();
     void describeBody(const Body& body, Reporter& reporter) const;
 
     Scene scene_;
@@ -95,9 +125,16 @@ private:
     std::vector<Part> parts_;  // by object
     std::optional<RayScene> rays_;
     std::vector<std::unique_ptr<Light>> lights_;
+    std::vector<VisibleLight> visibleLights_;
     std::vector<const MeshLight*> emitters_;   // by object
     std::vector<std::size_t> emitterIndices_;  // by object
     bool hasEmitters_ = false;
+    std::vector<std::unique_ptr<Volume>> volumes_;
+    struct Glow {
+        const VolumeLight* light = nullptr;
+        std::size_t index = 0;
+    };
+    std::vector<Glow> glows_;  // by volume
     std::optional<LightPicker> picker_;
     std::optional<Camera> camera_;
     Bounds bounds_;

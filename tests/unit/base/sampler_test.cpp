@@ -69,6 +69,23 @@ TEST(Sampler, BranchesAreStratifiedAndTheirOwn) {
     EXPECT_NEAR(sum / 64, 0.0, 4.0 * std::sqrt(2.0) / 12.0 / 8.0);
 }
 
+TEST(Sampler, NumbersTogetherAreThoseAlone) {
+    std::vector<Sampler> together, alone;
+    for (std::uint32_t i = 0; i < 37; ++i) {
+        together.emplace_back(8, 3 * i);
+        alone.emplace_back(8, 3 * i);
+    }
+    std::vector<Vec2> first(37), second(37);
+    Sampler::next2D(together, first);
+    Sampler::next2D(together, second);
+    for (std::size_t i = 0; i < 37; ++i) {
+        EXPECT_EQ(first[i], alone[i].next2D());
+        EXPECT_EQ(second[i], alone[i].next2D());
+        EXPECT_EQ(together[i].next1D(), alone[i].next1D());
+    }
+    Sampler::next2D({}, {});
+}
+
 // Pictures keep their noise when the sampler is made faster: the numbers of its first version, made
 // with every bit reversed one after the other.
 TEST(Sampler, NumbersStayAsTheyAre) {

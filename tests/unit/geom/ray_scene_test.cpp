@@ -305,7 +305,8 @@ TEST(RayScene, RaysTogetherHitWhatTheyHitAlone) {
         }
         std::vector<Hit> found(count);
         scene.intersectTogether(rays, found);
-        const std::uint64_t blocked = scene.occludedTogether(rays);
+        const std::uint64_t blocked = scene.occludedTogether(rays, RayScene::Together::Parallel);
+        EXPECT_EQ(scene.occludedTogether(rays, RayScene::Together::Parted), blocked);
         EXPECT_EQ(blocked >> count, 0u);
         for (std::size_t i = 0; i < count; ++i) {
             Hit alone;

@@ -25,6 +25,13 @@ FilmSample randomSample(Rng& rng) {
     return sample;
 }
 
+template <typename Sample>
+FilmPixel pixelOf(int samples, const Sample& sample) {
+    FilmPixel pixel;
+    for (int s = 0; s < samples; ++s) pixel.add(sample());
+    return pixel;
+}
+
 float value(const LayeredImage& image, const std::string& layer, std::size_t index) {
     return image.find(layer)->values.at(index);
 }
@@ -33,9 +40,8 @@ TEST(Film, BeautyIsExactlyTheSumOfItsParts) {
     Film film(5, 3, {"surface", "diffusion", "single"});
     Rng rng(4);
     for (int y = 0; y < 3; ++y)
-        for (int x = 0; x < 5; ++x)
-            for (int s = 0; s < 7; ++s) film.add(x, y, randomSample(rng));
-    const LayeredImage image = film.develop();
+        for (int x = 0; x < 5; ++x) film.set(x, y, pixelOf(7, [&] { return randomSample(rng); }));
+    const LayeredImage image = std::move(film).take();
     for (std::size_t pixel = 0; pixel < 15; ++pixel) {
         for (std::size_t c = 0; c < 3; ++c) {
             const float sum = value(image, "diffusion", pixel * 3 + c) +
@@ -49,22 +55,24 @@ TEST(Film, BeautyIsExactlyTheSumOfItsParts) {
 
 TEST(Film, LayersAreMeansInTheOrderAskedFor) {
     Film film(1, 1, kAll);
+    FilmPixel pixel;
     FilmSample hit;
     hit.diffusion = {1, 2, 3};
     hit.alpha = 1;
     hit.albedo = Rgb{0.5f};
     hit.normal = {0, 1, 0};
     hit.depth = 10;
-    film.add(0, 0, hit);
+    pixel.add(hit);
     hit.depth = 20;
     hit.diffusion = {3, 2, 1};
-    film.add(0, 0, hit);
+    pixel.add(hit);
     FilmSample miss;
     miss.surface = Rgb{0.5f};
-    film.add(0, 0, miss);
-    film.add(0, 0, miss);
+    pixel.add(miss);
+    pixel.add(miss);
+    film.set(0, 0, pixel);
 
-    const LayeredImage image = film.develop();
+    const LayeredImage image = std::move(film).take();
     ASSERT_EQ(image.layers.size(), 9u);
     for (std::size_t i = 0; i < kAll.size(); ++i) EXPECT_EQ(image.layers[i + 1].name, kAll[i]);
     EXPECT_EQ(image.find("diffusion")->values, (std::vector<float>{1, 1, 1}));
@@ -81,13 +89,13 @@ TEST(Film, VariancePredictsTheSpreadOfTheMean) {
     Rng rng(9);
     const int pixels = 2000, samples = 16;
     Film film(pixels, 1, {"variance"});
-    for (int x = 0; x < pixels; ++x)
-        for (int s = 0; s < samples; ++s) {
-            FilmSample sample;
-            sample.surface = randomColour(rng);
-            film.add(x, 0, sample);
-        }
-    const LayeredImage image = film.develop();
+    const auto coloured = [&] {
+        FilmSample sample;
+        sample.surface = randomColour(rng);
+        return sample;
+    };
+    for (int x = 0; x < pixels; ++x) film.set(x, 0, pixelOf(samples, coloured));
+    const LayeredImage image = std::move(film).take();
     double estimated = 0, squares = 0;
     for (std::size_t x = 0; x < pixels; ++x) {
         estimated += static_cast<double>(value(image, "variance", x * 3));
@@ -104,28 +112,32 @@ TEST(Film, UnusableSamplesAreDroppedAndCounted) {
     const float nan = std::nanf(""), infinity = std::numeric_limits<float>::infinity();
     FilmSample good;
     good.diffusion = Rgb{2.0f};
+    FilmPixel last, middle, first;
     FilmSample bad = good;
     bad.single.y = nan;
-    film.add(2, 1, bad);
+    first.add(bad);
     bad = good;
     bad.surface.x = infinity;
-    film.add(2, 1, bad);
+    first.add(bad);
     bad = good;
     bad.diffusion.z = -1e-6f;
-    film.add(1, 2, bad);
+    last.add(bad);
     bad = good;
     bad.normal.x = nan;
-    film.add(1, 2, bad);
+    last.add(bad);
     bad = good;
     bad.depth = nan;
-    film.add(3, 1, bad);
-    film.add(2, 1, good);
+    middle.add(bad);
+    first.add(good);
+    film.set(1, 2, last);
+    film.set(3, 1, middle);
+    film.set(2, 1, first);
 
     const Film::Dropped dropped = film.dropped();
     EXPECT_EQ(dropped.samples, 5u);
     EXPECT_EQ(dropped.firstX, 2);
     EXPECT_EQ(dropped.firstY, 1);
-    const LayeredImage image = film.develop();
+    const LayeredImage image = std::move(film).take();
     EXPECT_EQ(value(image, "", (4 + 2) * 4), 2.0f);
     EXPECT_EQ(value(image, "sampleCount", 4 + 2), 1.0f);
     for (const float v : image.find("")->values) EXPECT_TRUE(std::isfinite(v));
@@ -134,8 +146,20 @@ TEST(Film, UnusableSamplesAreDroppedAndCounted) {
 
 TEST(Film, PixelsNobodyHitHaveNoDepth) {
     Film film(2, 1, {"Z"});
-    film.add(0, 0, FilmSample{});
-    EXPECT_EQ(film.develop().find("Z")->values, (std::vector<float>{kNoDepth, kNoDepth}));
+    film.set(0, 0, pixelOf(1, [] { return FilmSample{}; }));
+    EXPECT_EQ(std::move(film).take().find("Z")->values, (std::vector<float>{kNoDepth, kNoDepth}));
+}
+
+TEST(Film, PixelsThatAreNotSetHoldWhatIsEverywhere) {
+    FilmSample background;
+    background.surface = {1, 2, 3};
+    Film film(2, 2, {"surface", "sampleCount"}, pixelOf(3, [&] { return background; }));
+    film.set(1, 0, FilmPixel{});
+    const LayeredImage image = std::move(film).take();
+    EXPECT_EQ(image.find("surface")->values,
+              (std::vector<float>{1, 2, 3, 0, 0, 0, 1, 2, 3, 1, 2, 3}));
+    EXPECT_EQ(image.find("sampleCount")->values, (std::vector<float>{3, 0, 3, 3}));
+    EXPECT_EQ(value(image, "", 8 + 2), 3.0f);
 }
 
 TEST(Film, UnknownAndRepeatedLayersAreNamed) {

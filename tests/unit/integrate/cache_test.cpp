@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <fstream>
 #include <functional>
 #include <set>
 
@@ -34,6 +35,51 @@ std::vector<InputFingerprint> inputsOf(const Scene& scene) {
     const World world(scene, silent);
     const auto optics = makeBodyOptics(world);
     return bodyInputs(world, 0, pointSpacingMm(world, world.bodies()[0], *optics[0]));
+}
+
+VolumeSettings ballOfFog() {
+    VolumeSettings fog;
+    fog.name = "fog";
+    fog.shape = SphereShape{9};
+    fog.sigmaS = Rgb(0.1f);
+    return fog;
+}
+
+// All of a volume that light on its way to a body can notice.
+TEST(SceneFingerprint, KnowsVolumes) {
+    const TemporaryFolder folder;
+    const auto grid = [&](const char* name, char byte) {
+        std::ofstream(folder / name) << std::string(32, byte);
+        return GridFile{folder / name, 2, 2, 2, 1};
+    };
+    const std::function<void(VolumeSettings&)> changes[] = {
+        [](VolumeSettings& v) { v.sigmaA.y = 0.2f; },
+        [](VolumeSettings& v) { v.sigmaS.z = 0.2f; },
+        [](VolumeSettings& v) { v.g = 0.3; },
+        [](VolumeSettings& v) { v.sigmaA = Rgb(1), v.emission = Rgb(1); },
+        [](VolumeSettings& v) { v.shape = BoxShape{DVec3(18)}; },
+        [](VolumeSettings& v) { v.shape = SphereShape{8}; },
+        [](VolumeSettings& v) {
+            v.transform = {testing::moved({0, 1, 0})};
+        },
+        [&](VolumeSettings& v) { v.grid = grid("a.raw", 1); },
+        [&](VolumeSettings& v) { v.grid = grid("b.raw", 2); },
+    };
+    std::set<std::string> seen;
+    const auto look = [&](const VolumeSettings& volume) {
+        Scene scene = smallScene().scene;
+        scene.volumes = {volume};
+        SilentReporter silent;
+        for (const InputFingerprint& input : bodyInputs(World(scene, silent), 0, 0.7))
+            if (input.key == "volumes") seen.insert(input.value.hex());
+    };
+    look(ballOfFog());
+    for (const auto& change : changes) {
+        VolumeSettings volume = ballOfFog();
+        change(volume);
+        look(volume);
+    }
+    EXPECT_EQ(seen.size(), std::size(changes) + 1);
 }
 
 TEST(SceneFingerprint, NamesExactlyWhatChanged) {
@@ -87,6 +133,7 @@ TEST(SceneFingerprint, NamesExactlyWhatChanged) {
              s.objects.back().transform = {testing::moved({0, 0, -8})};
          },
          {"surroundings"}},
+        {"fog", [](Scene& s) { s.volumes.push_back(ballOfFog()); }, {"volumes"}},
     };
     const auto before = inputsOf(smallScene().scene);
     for (const Change& change : changes) {
@@ -216,7 +263,7 @@ TEST(CloudCache, DescribesItself) {
     const TemporaryFolder folder;
     const Written written(folder / "a.ssc");
     const JsonValue info = describeCache(folder / "a.ssc");
-    EXPECT_EQ(info.find("format")->value.asNumber(), 1);
+    EXPECT_EQ(info.find("format")->value.asNumber(), kCacheVersion);
     EXPECT_EQ(info.find("bodies")->value.items().size(), 1u);
     const JsonValue& body = info.find("bodies")->value.items()[0];
     EXPECT_EQ(body.find("points")->value.asNumber(),

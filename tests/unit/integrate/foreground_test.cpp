@@ -41,9 +41,35 @@ TEST(Foreground, LeavesOutOnlyPixelsOfEvenBackground) {
                 ASSERT_EQ(radianceOfLights(world, ray, infinity, {}), Rgb(0.25f)) << x << ' ' << y;
             }
         }
-    // The ball's box covers a fifth of the picture, the lamp's a hundredth.
-    EXPECT_GT(left, 64 * 64 * 3 / 4);
+    // The ball covers an eighth of the picture (its box a fifth), the lamp a hundredth.
+    EXPECT_GT(left, 64 * 64 * 83 / 100);
     EXPECT_TRUE(foreground.mayShow(32, 32));
+}
+
+// A floor that reaches behind the camera cannot be projected as a whole.
+TEST(Foreground, IsEverywhereAroundWhatIsNotWhollyInFront) {
+    SceneMaker maker = ballAndLamp();
+    maker.object(BoxShape{{1000, 1, 1000}}, 0, testing::moved({0, -50, 0}));
+    const World world = maker.world();
+    EXPECT_TRUE(Foreground(world, 0.5f).mayShow(0, 0));
+}
+
+// Pictures larger than the grid of cells: each cell stands for several pixels.
+TEST(Foreground, LeavesOutMostOfALargePicture) {
+    SceneMaker maker = ballAndLamp();
+    maker.scene.film.width = 1500;
+    maker.scene.film.height = 1031;
+    const World world = maker.world();
+    const Foreground foreground(world, 0.5f);
+    int left = 0;
+    for (int y = 0; y < 1031; y += 3)
+        for (int x = 0; x < 1500; x += 5) {
+            if (foreground.mayShow(x, y)) continue;
+            ++left;
+            const Vec2 pixel(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f);
+            ASSERT_FALSE(world.rays().occluded(world.camera().ray(pixel, Vec2(0.5f))));
+        }
+    EXPECT_GT(left, 300 * 343 * 83 / 100);
 }
 
 TEST(Foreground, IsEverywhereThroughALens) {

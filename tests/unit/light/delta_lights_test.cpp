@@ -1,3 +1,4 @@
+#include "sss/base/sampler.h"
 #include "sss/light/directional_light.h"
 #include "sss/light/point_light.h"
 #include "sss/light/spot_light.h"
@@ -81,6 +82,31 @@ TEST(DirectionalLight, ComesFromFarAway) {
     EXPECT_EQ(s.radiance, Rgb(1, 2, 3));
     EXPECT_TRUE(light.isDelta());
     EXPECT_TRUE(light.isInfinite());
+}
+
+// The part of a ray in the cone is where sample() finds light; rays of all kinds, from within too.
+TEST(SpotLight, SaysWhereItShinesAlongARay) {
+    const SpotLightSource light({{1, 2, 3}, {4, -1, 1}, Rgb(1), 25, 5}, DVec3(0));
+    int crossed = 0;
+    for (std::uint32_t i = 0; i < 400; ++i) {
+        Sampler sampler(9, i);
+        const Vec2 u = sampler.next2D(), v = sampler.next2D();
+        const float w = sampler.next1D();
+        const Vec3 from = Vec3(u.x, u.y, w) * 10.0f - 3.0f;
+        const Vec3 along = glm::normalize(Vec3(v.x - 0.5f, v.y - 0.5f, w - 0.4f));
+        const Light::Stretch lit = light.litStretch(from, along, {0.5f, 20});
+        crossed += lit.begin < lit.end ? 1 : 0;
+        for (int k = 0; k < 200; ++k) {
+            const float t = 0.5f + 19.5f * (static_cast<float>(k) + 0.5f) / 200;
+            const bool isLit = light.sample(from + along * t, {}).pdf > 0;
+            const bool isIn = t > lit.begin && t < lit.end;
+            // Rounding decides within a thousandth of the ends.
+            if (std::abs(t - lit.begin) < 1e-3f || std::abs(t - lit.end) < 1e-3f) continue;
+            ASSERT_EQ(isIn, isLit) << i << " at " << t;
+        }
+    }
+    EXPECT_GT(crossed, 40);
+    EXPECT_LT(crossed, 360);
 }
 
 }  // namespace
