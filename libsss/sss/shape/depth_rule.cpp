@@ -1,0 +1,84 @@
+#include "sss/shape/depth_rule.h"
+
+#include "sss/optics/gauss_legendre.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sss {
+namespace {
+
+// Channels whose extinction differs by less share their places.
+constexpr double kLikeExtinction = 1.6;
+// Optical depth of a millionth.
+constexpr double kEnd = 14.0;
+
+// Integral of (s - about)^power sigma exp(-sigma s) over [0, length].
+double moment(double sigma, double length, int power, double about) {
+    const double end = std::min(length, 40.0 / sigma);
+    double sum = 0;
+    for (int part = 0; part < 4; ++part)
+        sum += gauss16(end * part / 4, end * (part + 1) / 4, [&](double s) {
+            return std::pow(s - about, power) * sigma * std::exp(-sigma * s);
+        });
+    return sum;
+}
+
+}  // namespace
+
+DepthRule::DepthRule(const DiffusionConstants& medium) : extinction_(medium.extinction) {
+    Group channels;
+    for (int c = 0; c < 3; ++c)
+        if (medium.scatters[c]) channels.push_back(c);
+    std::sort(channels.begin(), channels.end(),
+              [&](int a, int b) { return extinction_[a] < extinction_[b]; });
+    for (const int c : channels) {
+        if (groups_.empty() ||
+            extinction_[c] > kLikeExtinction * extinction_[groups_.back().front()])
+            groups_.emplace_back();
+        groups_.back().push_back(c);
+    }
+    if (!channels.empty()) reachMm_ = kEnd / extinction_[channels.front()];
+    for (const Group& group : groups_)
+        appendGroup(group, std::numeric_limits<double>::infinity(), endless_);
+}
+
+void DepthRule::appendGroup(const Group& group, double lengthMm, std::vector<Node>& nodes) const {
+    // Moments of the group's mean density, and of each channel.
+    double total = 0, mean = 0;
+    DRgb own{0}, first{0};
+    for (const int c : group) {
+        own[c] = -std::expm1(-extinction_[c] * lengthMm);
+        first[c] = moment(extinction_[c], lengthMm, 1, 0.0);
+        total += own[c];
+        mean += first[c];
+    }
+    if (!(total > 0)) return;
+    mean /= total;
+    double variance = 0, third = 0;
+    for (const int c : group) {
+        variance += moment(extinction_[c], lengthMm, 2, mean) / total;
+        third += moment(extinction_[c], lengthMm, 3, mean) / total;
+    }
+    // The two-point rule with these mean, variance and third moment.
+    const double deviation = std::sqrt(variance), skew = third / (variance * deviation);
+    const double root = std::sqrt(skew * skew + 4.0);
+    const double near = mean + 0.5 * deviation * (skew - root);
+    const double far = mean + 0.5 * deviation * (skew + root);
+    DRgb farWeight{0};
+    for (const int c : group)
+        farWeight[c] = std::clamp((first[c] - near * own[c]) / (far - near), 0.0, own[c]);
+    nodes.push_back({near, own - farWeight});
+    nodes.push_back({far, farWeight});
+}
+
+void DepthRule::append(double lengthMm, std::vector<Node>& nodes) const {
+    if (lengthMm >= reachMm_) {
+        nodes.insert(nodes.end(), endless_.begin(), endless_.end());
+        return;
+    }
+    if (!(lengthMm > 0)) return;
+    for (const Group& group : groups_) appendGroup(group, lengthMm, nodes);
+}
+
+}  // namespace sss

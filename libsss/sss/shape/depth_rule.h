@@ -1,0 +1,35 @@
+#pragma once
+#include "sss/shape/diffusion_constants.h"
+
+#include <vector>
+
+namespace sss {
+
+/// Where along a beam light scatters for the first time, as a few places with weights by channel:
+/// two a group of channels of like extinction. The places are the Gauss rule of the group's mean of
+/// sigma'_t exp(-sigma'_t s) on [0, length]; the weights keep each channel's own total and mean
+/// depth. (Two equal halves at their means, for comparison, would be 3.5 % low where k l = 0.5;
+/// this rule is 0.5 % low.)
+class DepthRule {
+public:
+    struct Node {
+        double depthMm;
+        DRgb weight;  ///< share of a channel's light; all add up to 1 - exp(-sigma'_t length)
+    };
+    explicit DepthRule(const DiffusionConstants& medium);
+    /// For a beam that leaves the body after `lengthMm`, infinity for never. Appends.
+    void append(double lengthMm, std::vector<Node>& nodes) const;
+    /// No channel has more than a millionth of its light left beyond this.
+    double reachMm() const { return reachMm_; }
+
+private:
+    using Group = std::vector<int>;  ///< channels
+    void appendGroup(const Group& group, double lengthMm, std::vector<Node>& nodes) const;
+
+    DRgb extinction_;
+    std::vector<Group> groups_;
+    std::vector<Node> endless_;
+    double reachMm_ = 0;
+};
+
+}  // namespace sss
