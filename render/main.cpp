@@ -98,7 +98,16 @@ void recordRender(RunStats& stats, const Scene& scene, const RenderResult& resul
     stats.count("localInteractions", total.sums.localInteractions);
     stats.count("nodeInteractions", total.sums.nodeInteractions);
     stats.count("pointInteractions", total.sums.pointInteractions);
+    stats.count("skippedNodes", total.sums.nodesSkipped);
+    stats.count("skippedPoints", total.sums.pointsSkipped);
     stats.value("instructionSet", accumulateTarget());
+}
+
+// What was left out because it brings nothing, or is known already.
+void recordSkips(RunStats& stats, std::span<const std::unique_ptr<BodyOptics>> optics) {
+    int equalChannels = 0;
+    for (const auto& body : optics) equalChannels += body->equalChannels();
+    stats.count("equalChannels", static_cast<std::uint64_t>(equalChannels));
 }
 
 // Share of the paths that may meet a surface where none should be, by rounding.
@@ -204,6 +213,7 @@ int run(int argc, const char* const* argv) {
         writePictures(*options, world->scene(), result.image, reporter);
     }
     recordRender(stats, world->scene(), result, fields);
+    recordSkips(stats, optics);
     stats.value("threads", ThreadLimit::current());
     if (!options->stats.empty()) stats.writeStats(options->stats);
     if (options->strict) reporter.requireNoWarnings();

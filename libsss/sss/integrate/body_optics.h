@@ -12,7 +12,8 @@ struct BodyOptics {
     explicit BodyOptics(const TranslucentMaterial& material);
 
     const TranslucentMaterial& material;
-    std::array<std::unique_ptr<Profile>, 3> profiles;  ///< channels of equal media share values
+    /// Channels of equal coefficients share one profile, and whatever is made from it once.
+    std::array<std::shared_ptr<const Profile>, 3> profiles;
     float eta = 1;
     /// T: cosine-weighted mean of F_t over the hemisphere. M F_t(w_o) / (pi T) is radiance of
     /// exitance M exactly.
@@ -30,6 +31,10 @@ struct BodyOptics {
     std::array<const Profile*, 3> profilePointers() const {
         return {profiles[0].get(), profiles[1].get(), profiles[2].get()};
     }
+    /// The first channel with the profile of this one.
+    int firstLike(int channel) const;
+    /// How many channels share the profile of an earlier one: 2 in a grey medium.
+    int equalChannels() const;
     /// F_t(w) / (pi T) at a cosine: turns exitance into radiance.
     float radiancePerExitance(float cosine) const;
 };
