@@ -13,6 +13,7 @@
 #include "sss/image/png_file.h"
 #include "sss/image/tone_map.h"
 #include "sss/integrate/cloud_cache.h"
+#include "sss/integrate/diffuse_limit.h"
 #include "sss/integrate/integrator_table.h"
 #include "sss/integrate/renderer.h"
 #include "sss/scene/boundary_override.h"
@@ -85,6 +86,7 @@ void recordRender(RunStats& stats, const Scene& scene, const RenderResult& resul
     stats.count("nan", result.dropped.samples);
     ExitanceCounts total;
     for (const auto& field : fields) {
+        if (!field) continue;
         const ExitanceCounts counts = field->counts();
         total.sums.add(counts.sums);
         total.groups += counts.groups;
@@ -104,10 +106,18 @@ void recordRender(RunStats& stats, const Scene& scene, const RenderResult& resul
 }
 
 // What was left out because it brings nothing, or is known already.
-void recordSkips(RunStats& stats, std::span<const std::unique_ptr<BodyOptics>> optics) {
+void recordSkips(RunStats& stats, const PathCounts& counts, bool needsFields,
+                 std::span<const std::unique_ptr<BodyOptics>> optics) {
     int equalChannels = 0;
-    for (const auto& body : optics) equalChannels += body->equalChannels();
+    std::uint64_t limits = 0;
+    for (const auto& body : optics) {
+        equalChannels += body->equalChannels();
+        limits += body->inDiffuseLimit ? 1 : 0;
+    }
     stats.count("equalChannels", static_cast<std::uint64_t>(equalChannels));
+    stats.count("diffuseLimitBodies", limits);
+    stats.count("passOneSkipped", needsFields && limits < optics.size() ? 0 : 1);
+    stats.count("singleScatteringSkipped", counts.singleSkipped);
 }
 
 // Share of the paths that may meet a surface where none should be, by rounding.
@@ -183,6 +193,7 @@ int run(int argc, const char* const* argv) {
     }
     const auto optics = makeBodyOptics(*world);
     const bool needsFields = integratorOf(world->scene()).needsFields;
+    if (needsFields) findDiffuseLimits(*world, optics, reporter);
     if (!needsFields && !options->cache.empty())
         throw Error(
             ErrorKind::Usage, "--cache",
@@ -202,8 +213,11 @@ int run(int argc, const char* const* argv) {
     {
         const auto timer = stats.seconds("render");
         for (std::size_t b = 0; needsFields && b < world->bodies().size(); ++b)
-            fields.push_back(std::make_unique<BodyField>(
-                world->bodies()[b], *optics[b], clouds.view(b), world->scene().quality.tolerance));
+            fields.push_back(optics[b]->inDiffuseLimit
+                                 ? nullptr
+                                 : std::make_unique<BodyField>(world->bodies()[b], *optics[b],
+                                                               clouds.view(b),
+                                                               world->scene().quality.tolerance));
         result = render(*world, optics, fields, reporter);
     }
     warnOfFlaws(result, reporter);
@@ -213,7 +227,7 @@ int run(int argc, const char* const* argv) {
         writePictures(*options, world->scene(), result.image, reporter);
     }
     recordRender(stats, world->scene(), result, fields);
-    recordSkips(stats, optics);
+    recordSkips(stats, result.counts, needsFields, optics);
     stats.value("threads", ThreadLimit::current());
     if (!options->stats.empty()) stats.writeStats(options->stats);
     if (options->strict) reporter.requireNoWarnings();

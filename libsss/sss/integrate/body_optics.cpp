@@ -11,6 +11,17 @@ namespace {
 
 // Above this reduced albedo single scattering is less than a sixth of what leaves a half-space.
 constexpr double kHighAlbedo = 0.9;
+// Optical depth that a millionth of the light passes.
+constexpr double kUnnoticedDepth = 14;
+
+// How far single scattering reaches in the medium's clearest channel.
+double singleReach(const Medium& medium) {
+    double reach = 0;
+    for (int c = 0; c < 3; ++c)
+        if (medium.sigmaS[c] > 0)
+            reach = std::max(reach, kUnnoticedDepth / medium.channel(c).sigmaT());
+    return reach;
+}
 
 }  // namespace
 
@@ -37,6 +48,7 @@ BodyOptics::BodyOptics(const TranslucentMaterial& translucent) : material(transl
         multipleScale[c] =
             static_cast<float>(multipleScatterScale(*profile, channel, translucent.energy, shown));
     }
+    singleReachMm = static_cast<float>(singleReach(translucent.medium));
     double lowestAlbedo = 1;
     for (int c = 0; c < 3; ++c)
         lowestAlbedo = std::min(lowestAlbedo, translucent.medium.channel(c).reducedAlbedo());

@@ -27,6 +27,12 @@ struct BodyOptics {
     /// Exitance per transmitted irradiance when mean free paths are short: the diffuse limit
     /// [JMLH01 section 2.4], single scattering included.
     Rgb diffuseAlbedo{0.0f};
+    /// Whether pass 2 may show the body by that limit (findDiffuseLimits()): then it needs no
+    /// points.
+    bool inDiffuseLimit = false;
+    /// mm into the body beyond which nothing scatters singly that anyone would notice; 0 where no
+    /// channel scatters.
+    float singleReachMm = 0;
 
     std::array<const Profile*, 3> profilePointers() const {
         return {profiles[0].get(), profiles[1].get(), profiles[2].get()};
