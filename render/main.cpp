@@ -14,6 +14,7 @@
 #include "sss/image/tone_map.h"
 #include "sss/integrate/cloud_cache.h"
 #include "sss/integrate/diffuse_limit.h"
+#include "sss/integrate/exitance_cache.h"
 #include "sss/integrate/integrator_table.h"
 #include "sss/integrate/renderer.h"
 #include "sss/scene/boundary_override.h"
@@ -209,6 +210,7 @@ int run(int argc, const char* const* argv) {
         clouds.made = runPassOne(*world, optics, {options->maxPoints}, reporter, stats);
     }
     std::vector<std::unique_ptr<BodyField>> fields;
+    std::optional<ExitanceCache> kept;
     RenderResult result;
     {
         const auto timer = stats.seconds("render");
@@ -218,6 +220,10 @@ int run(int argc, const char* const* argv) {
                                  : std::make_unique<BodyField>(world->bodies()[b], *optics[b],
                                                                clouds.view(b),
                                                                world->scene().quality.tolerance));
+        if (clouds.cache && !options->noKeep) {
+            kept.emplace(options->cache, *world, optics);
+            stats.count("exitanceGroupsReused", kept->load(fields, reporter));
+        }
         result = render(*world, optics, fields, reporter);
     }
     warnOfFlaws(result, reporter);
@@ -225,6 +231,7 @@ int run(int argc, const char* const* argv) {
     {
         const auto timer = stats.seconds("write");
         writePictures(*options, world->scene(), result.image, reporter);
+        if (kept) kept->save(fields, reporter);
     }
     recordRender(stats, world->scene(), result, fields);
     recordSkips(stats, result.counts, needsFields, optics);

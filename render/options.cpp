@@ -23,7 +23,9 @@ usage: sss-render [options] SCENE -o OUT.exr
 
 Input
   SCENE                   scene file (JSON, see scenes/README.md)
-  --cache CACHE           made by sss-preprocess from this scene [made in memory]
+  --cache CACHE           made by sss-preprocess from this scene [made in memory]; what the frame
+                          computes is kept in CACHE.exitance for the next one
+  --no-keep               ... or not
   --meters-per-unit M     length of a scene unit [the scene's metersPerUnit; m]
 
 Quality
@@ -191,6 +193,7 @@ std::optional<RenderOptions> readOptions(int argc, const char* const* argv) {
     app.add_flag("--version", version);
     app.add_option("scene", o.scene);
     app.add_option("--cache", o.cache);
+    app.add_flag("--no-keep", o.noKeep);
     app.add_option("-o,--output", o.output);
     app.add_option("--stats", o.stats);
     app.add_option("--samples", o.samples);

@@ -10,6 +10,7 @@
 struct RenderOptions {
     std::filesystem::path scene;
     std::filesystem::path cache;  ///< empty = made in memory
+    bool noKeep = false;          ///< exitance is neither read from beside the cache nor written
     std::filesystem::path output;
     std::filesystem::path stats;
     std::optional<int> samples;

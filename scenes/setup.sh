@@ -14,6 +14,8 @@ SSS_PACKAGES=(
 SSS_TEST_PACKAGES=(clang-format clang-tidy python3-jsonschema)
 # For tests/bench/run.sh only: its plots.
 SSS_BENCH_PACKAGES=(python3-matplotlib)
+# ... and with --peer mitsuba: its environment, and a newer LLVM than Debian 12's own for its compiler.
+SSS_PEER_PACKAGES=(python3-venv libllvm19)
 
 # Installs what is missing of the packages named.
 sss_install() {

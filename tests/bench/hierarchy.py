@@ -1,9 +1,9 @@
 """The sum alone: cost against number of points, and error over time beside the classic way."""
 
-import math
 import os
 import pathlib
 
+import curves
 import programs
 from programs import SOURCE
 
@@ -13,7 +13,7 @@ SCENES = {
     "ketchup-slab": ("slab, ketchup", "scenes/bench/ketchup-slab.json"),
     "igea-skin": ("Igea, skin", "scenes/bench/igea-skin.json"),
 }
-# Errors to which times are given.
+# Errors of 99.9 % of the receivers to which times are given.
 TARGETS = (0.1, 0.01, 0.001, 0.0001)
 
 
@@ -38,8 +38,8 @@ def scenes(scale, options):
                                receivers=scale["receivers"], rounds=scale["rounds"],
                                pass_one_tolerance=scale["hierarchyTolerance"])
         for method in found["methods"]:
-            method["timeTo"] = {str(target): time_to(method["curve"], target)
-                                for target in TARGETS}
+            points = [(entry["error"]["p999"], entry["seconds"]) for entry in method["curve"]]
+            method["timeTo"] = {str(target): curves.time_to(points, target) for target in TARGETS}
         measured.append({"name": name, "title": title, **found})
     return measured
 
@@ -65,20 +65,3 @@ def with_mesh(path, target):
 
     made = programs.derived_scene(path, target, find)
     return None if missing else made
-
-
-def time_to(curve, target):
-    """Seconds a receiver until 99.9 % of them are within `target`: straight lines between the
-    measured points on a log-log plot; None beyond the smallest error. A curve that is better
-    everywhere costs what its cheapest point costs."""
-    points = sorted((max(entry["error"]["p999"], 1e-12), entry["seconds"]) for entry in curve)
-    if points[0][0] > target:
-        return None
-    within = [point for point in points if point[0] <= target]
-    beyond = [point for point in points if point[0] > target]
-    best = min(seconds for _, seconds in within)
-    if not beyond:
-        return best
-    (e0, s0), (e1, s1) = within[-1], beyond[0]
-    share = math.log(target / e0) / math.log(e1 / e0)
-    return min(best, s0 * (s1 / s0) ** share)

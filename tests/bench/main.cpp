@@ -17,7 +17,7 @@ struct Subject {
 constexpr Subject kSubjects[] = {
     {"machine", bench::measureMachine},     {"reference", bench::makeReference},
     {"frame", bench::measureFrame},         {"scaling", bench::measureScaling},
-    {"hierarchy", bench::measureHierarchy},
+    {"hierarchy", bench::measureHierarchy}, {"picture", bench::measurePicture},
 };
 
 int run(int argc, const char* const* argv) {
@@ -28,7 +28,7 @@ int run(int argc, const char* const* argv) {
             return 0;
         }
     throw Error(ErrorKind::Usage, "command line", "no subject \"" + arguments.subject() + "\"",
-                "machine, reference, frame, scaling or hierarchy");
+                "machine, reference, frame, scaling, hierarchy or picture");
 }
 
 }  // namespace

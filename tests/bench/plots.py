@@ -1,4 +1,4 @@
-"""The measurements as pictures, SVG and PNG. Needs matplotlib."""
+"""Charts of the frame, of scaling and of the hierarchy. Needs matplotlib."""
 
 import math
 
@@ -22,27 +22,6 @@ plt.rcParams.update({
     "axes.titleweight": "bold", "axes.titlelocation": "left", "svg.hashsalt": "sss",
     "legend.frameon": False,
 })
-
-
-def draw(result, folder):
-    about = result["about"]
-    note = (f"{about['processor']}, one core at {about['clockHertz'] / 1e9:.1f} GHz, "
-            f"{about['commit']}")
-    if "scenes" in result and result["scenes"]:
-        save(error_over_time(result["scenes"]), note, folder / "error-over-time")
-        save(time_over_tolerance(result["scenes"]), note, folder / "time-over-tolerance")
-        save(tolerance_kept(result["scenes"]), note, folder / "tolerance-kept")
-    if "scaling" in result:
-        save(scaling(result["scaling"]), note, folder / "scaling")
-    if "frame" in result:
-        save(frame(result["frame"]), note, folder / "frame")
-
-
-def save(figure, note, path):
-    figure.text(0.995, 0.005, note, ha="right", va="bottom", fontsize=6.5, color="#777777")
-    figure.savefig(path.with_suffix(".svg"))
-    figure.savefig(path.with_suffix(".png"), dpi=160)
-    plt.close(figure)
 
 
 def short(value):

@@ -32,18 +32,38 @@ def cost(command):
             "system": usage.ru_stime, "wall": wall, "memory": usage.ru_maxrss * 1024}
 
 
+def shown(command):
+    """A command as a user types it in the project's folder."""
+    return " ".join(os.path.relpath(part, SOURCE) if os.path.isabs(str(part)) else str(part)
+                    for part in command)
+
+
 def bench(subject, *rest, **options):
     """What sss-bench measures: its JSON. Options with underscores for dashes; lists by commas."""
     command = [BIN / "sss-bench", subject, *rest]
     for name, value in options.items():
         text = ",".join(map(repr, value)) if isinstance(value, list) else str(value)
         command += [f"--{name.replace('_', '-')}", text]
-    print("  " + " ".join(os.path.relpath(part, SOURCE) if os.path.isabs(str(part)) else str(part)
-                          for part in command), flush=True)
+    print("  " + shown(command), flush=True)
     done = subprocess.run([str(part) for part in command], capture_output=True, text=True)
     if done.returncode != 0:
         raise BenchError(f"sss-bench {subject} ended with {done.returncode}: {done.stderr.strip()}")
     return json.loads(done.stdout)
+
+
+def compare(picture, reference, layer="", mask="A", error_image=None):
+    """How far `picture` is from `reference` where the reference's mask is: what sss-render
+    --compare says, {relativeRmse, bias, maximum, flip, referenceMean, pixels}."""
+    command = [BIN / "sss-render", "--compare", picture, reference, "--json", "--mask", mask]
+    if layer:
+        command += ["--layer", layer]
+    if error_image:
+        command += ["--error-image", error_image]
+    done = subprocess.run([str(part) for part in command], capture_output=True, text=True)
+    if done.returncode != 0:
+        raise BenchError(f"comparing {picture} ended with {done.returncode}: {done.stderr.strip()}")
+    return {name: value["mean"] if isinstance(value, dict) else value
+            for name, value in json.loads(done.stdout).items()}
 
 
 def derived_scene(path, target, change=lambda scene: None):

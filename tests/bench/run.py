@@ -1,11 +1,13 @@
 #!/usr/bin/env python3
 """The benchmark: what translucency costs and what error it has, always side by side.
 
-    run.py [--smoke | --quick | --full] [--only frame,scaling,hierarchy] [--out DIR] [--fresh]
+    run.py [--smoke | --quick | --full] [--only frame,scaling,hierarchy,pictures] [--out DIR]
+           [--fresh] [--peer mitsuba]
 
 Needs a release build (sss-preprocess, sss-render, sss-bench; SSS_BIN_DIR, or build/release/bin);
-run.sh beside this file makes one first. Writes DIR/bench.json, CSV tables and, with Debian's
-python3-matplotlib, plots. README.md beside this file says what each figure means.
+run.sh beside this file makes one first. Writes DIR/report.html, DIR/bench.json, CSV tables,
+the README's tables as tables.md and, with Debian's python3-matplotlib, charts. README.md beside
+this file says what each figure means.
 """
 
 import argparse
@@ -15,9 +17,14 @@ import os
 import pathlib
 import sys
 
+import figures
 import frame
 import hierarchy
 import machine
+import models
+import peer
+import pictures
+import report
 import tables
 from programs import BIN, SOURCE, BenchError
 
@@ -28,6 +35,12 @@ SCALES = {
         "referenceSamples": 32, "frameReceivers": 128,
         "points": [1e4], "tolerances": [0.1, 0.01], "receivers": 64, "rounds": 1,
         "scenes": ["ketchup-slab"], "hierarchyTolerance": 0.5,
+        "pictureScenes": ["ketchup-slab"], "pictureSize": 32, "pictureRuns": 1,
+        "pictureTolerances": [0.5, 0.1], "pictureSamples": [2, 8], "pictureDenser": 2,
+        "pictureLight": 32, "pictureTruth": 0.05, "pictureReceivers": 128,
+        "pictureAngles": [0.1, 0.01], "volumeSamples": [8, 32], "volumeSeconds": 1e9,
+        "volumeSeeds": 3,
+        "models": ["dipole", "better_dipole"], "modelSamples": 8, "modelTolerance": 0.1,
     },
     # Some minutes: rough figures, reference 4 times as dense.
     "quick": {
@@ -35,6 +48,12 @@ SCALES = {
         "referenceSamples": 64, "frameReceivers": 768,
         "points": [1e4, 3e4, 1e5], "tolerances": [0.1, 0.01, 0.001, 0.0001], "receivers": 512,
         "rounds": 2, "scenes": list(hierarchy.SCENES), "hierarchyTolerance": 0.1,
+        "pictureScenes": list(hierarchy.SCENES), "pictureSize": 96, "pictureRuns": 1,
+        "pictureTolerances": [0.1, 0.03, 0.01], "pictureSamples": [4, 32, 256], "pictureDenser": 3,
+        "pictureLight": 48, "pictureTruth": 0.003, "pictureReceivers": 384,
+        "pictureAngles": [0.3, 0.1, 0.03, 0.01], "volumeSamples": [4, 16384],
+        "volumeSeconds": 24, "volumeSeeds": 4, "modelSamples": 32, "modelTolerance": 0.05,
+        "models": ["dipole", "better_dipole", "photon_beam", "normalized_diffusion"],
     },
     # All of it. The reference's many points average their own noise out, so that few light samples
     # are enough: "of the reference" says how well.
@@ -44,9 +63,14 @@ SCALES = {
         "points": [1e4, 3e4, 1e5, 3e5, 1e6, 3e6, 1e7],
         "tolerances": [0.1, 0.03, 0.01, 0.003, 0.001, 0.0003, 0.0001], "receivers": 1024,
         "rounds": 3, "scenes": list(hierarchy.SCENES), "hierarchyTolerance": 0,
+        "pictureScenes": list(hierarchy.SCENES), "pictureSize": 256, "pictureRuns": 2,
+        "pictureTolerances": [0.1, 0.03, 0.01, 0.003], "pictureSamples": [16, 64, 256],
+        "pictureDenser": 4, "pictureLight": 48, "pictureTruth": 0.001, "pictureReceivers": 768,
+        "pictureAngles": [0.3, 0.1, 0.03, 0.01, 0.003, 0.001], "volumeSamples": [16, 16384],
+        "volumeSeconds": 300, "volumeSeeds": 6, "modelSamples": 64, "modelTolerance": 0.01, "models": list(models.MODELS),
     },
 }
-PARTS = ("frame", "scaling", "hierarchy")
+PARTS = ("frame", "scaling", "hierarchy", "pictures")
 
 
 def arguments():
@@ -58,6 +82,8 @@ def arguments():
     parser.add_argument("--cache", type=pathlib.Path, default=SOURCE / "build/bench-cache",
                         help="where costly references are kept")
     parser.add_argument("--fresh", action="store_true", help="make the references again")
+    parser.add_argument("--peer", choices=["mitsuba"], help="install Mitsuba 3 under build/ and "
+                        "put its volpathmis beside volume; for --full")
     parser.set_defaults(scale="quick")
     options = parser.parse_args()
     options.parts = options.only.split(",")
@@ -88,20 +114,27 @@ def main():
         result["scaling"] = hierarchy.scaling(scale)
     if "hierarchy" in options.parts:
         result["scenes"] = hierarchy.scenes(scale, options)
+    if "pictures" in options.parts:
+        result["pictures"] = pictures.measure(scale, options)
+        if options.peer:
+            result["peer"] = peer.measure(scale, options, result["pictures"])
     (options.out / "bench.json").write_text(json.dumps(result, indent=1) + "\n")
     tables.write(result, options.out)
     draw(result, options.out)
+    (options.out / "tables.md").write_text(figures.markdown(result))
+    report.write(result, options.out)
     print(tables.summary(result))
-    print(f"wrote {options.out}")
+    print(figures.text(result))
+    print(f"wrote {options.out}, for reading report.html")
 
 
 def draw(result, folder):
     try:
-        import plots
+        import charts
     except ImportError as error:
         print(f"no plots: {error.name} is missing (apt-get install python3-matplotlib)")
         return
-    plots.draw(result, folder)
+    charts.draw(result, folder)
 
 
 if __name__ == "__main__":

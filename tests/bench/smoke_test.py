@@ -10,10 +10,14 @@ import json
 import math
 import os
 import pathlib
+import re
 import subprocess
 import sys
 import tempfile
 import unittest
+
+import curves
+import pictures
 
 BENCH = pathlib.Path(__file__).resolve().parent
 
@@ -93,6 +97,69 @@ class SmokeTest(unittest.TestCase):
         self.assertAlmostEqual(worst["solid-angle"][1], worst["solid-angle-table"][1], delta=1e-5)
         self.assertEqual(len(self.rows("hierarchy.csv")), 7)
         self.assertIn("solid angle, exps", self.said)
+
+    def test_pictures_of_all_methods_tend_to_their_references(self):
+        (scene,) = self.result["pictures"]
+        curves = {method["name"]: method["curve"] for method in scene["methods"]}
+        self.assertEqual(set(curves),
+                         {"cached", "solid-angle", "brute-force", "bssrdf", "volume"})
+        # Asked for 10 %; with the sum over the same points it has the error of the points alone.
+        self.assertLess(curves["cached"][-1]["error"], 0.02)
+        self.assertLess(curves["brute-force"][-1]["error"], 0.02)
+        self.assertLess(curves["solid-angle"][-1]["error"], 0.05)
+        # Four times as many samples, half of the noise; the more so, the better they spread.
+        bssrdf = [entry["error"] for entry in curves["bssrdf"]]
+        self.assertLess(bssrdf[1], 0.7 * bssrdf[0])
+        for entry in curves["bssrdf"]:
+            self.assertLess(abs(entry["bias"]), 0.2)
+        noise = [entry["error"] for entry in curves["volume"]]
+        self.assertLess(noise[-1], noise[0])
+        for method in scene["methods"]:
+            self.assertGreater(method["timeTo"]["0.01"]["seconds"], 0)
+            self.assertEqual(method["timeTo"]["0.01"]["extrapolated"], method["noise"])
+        self.assertEqual(len(self.rows("time-to-error.csv")), 10)
+        self.assertIn("bssrdf, by samples", self.said)
+
+    def test_models_are_darker_than_radiative_transfer_within_its_noise(self):
+        models = {model["name"]: model for model in self.result["pictures"][0]["models"]}
+        self.assertEqual(set(models), {"dipole-alone", "dipole", "better_dipole", "brdf"})
+        for model in models.values():
+            self.assertGreater(model["meanStandardError"], 0)
+            # -20 % in pictures with less noise.
+            self.assertAlmostEqual(model["mean"], -0.2, delta=5 * model["meanStandardError"])
+        self.assertEqual(len(self.rows("models.csv")), 4)
+
+    def test_report_is_one_file_with_its_pictures_and_tables(self):
+        page = (self.folder / "out/report.html").read_text()
+        links = re.findall(r'(?:src|href)="(?!data:image/png;base64,|#)([^"]*)"', page)
+        self.assertEqual(links, [])
+        # Of three methods: the picture, its reference, the error image.
+        self.assertEqual(page.count("data:image/png;base64,"), 9)
+        for section in ("pictures", "models", "frame", "scaling", "hierarchy", "machine"):
+            self.assertIn(f'<section id="{section}">', page)
+            self.assertIn(f'href="#{section}"', page)
+        names = re.findall(r' id="([^"]+)"', page)
+        self.assertEqual(len(names), len(set(names)))
+        self.assertIn("| slab, ketchup | dipole |", (self.folder / "out/tables.md").read_text())
+
+
+class CurvesTest(unittest.TestCase):
+    def test_between_measured_points_on_a_log_log_plot(self):
+        curve = [(0.1, 1.0), (0.001, 100.0)]
+        self.assertAlmostEqual(curves.time_to(curve, 0.01), 10.0)
+        self.assertAlmostEqual(curves.time_to(curve, 0.5), 1.0)
+        self.assertIsNone(curves.time_to(curve, 0.0001))
+
+    def test_noise_falls_with_the_square_root_beyond(self):
+        curve = [(0.4, 1.0), (0.2, 4.0)]
+        seconds, beyond = curves.time_with_noise(curve, 0.02)
+        self.assertAlmostEqual(seconds, 400.0)
+        self.assertTrue(beyond)
+        self.assertEqual(curves.time_with_noise(curve, 0.4), (1.0, False))
+
+    def test_what_nothing_beats(self):
+        points = [{"seconds": s, "error": e} for s, e in ((2, 0.5), (1, 1), (3, 0.6), (4, 0.1))]
+        self.assertEqual([point["seconds"] for point in pictures.unbeaten(points)], [1, 2, 4])
 
 
 if __name__ == "__main__":

@@ -17,5 +17,7 @@ JsonValue measureFrame(const Arguments& arguments);
 JsonValue measureScaling(const Arguments& arguments);
 /// Error over time of all methods that sum over the same points.
 JsonValue measureHierarchy(const Arguments& arguments);
+/// The same at the places that a picture sees, its own cloud against a denser one.
+JsonValue measurePicture(const Arguments& arguments);
 
 }  // namespace sss::bench

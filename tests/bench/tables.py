@@ -9,8 +9,12 @@ def write(result, folder):
         save(folder / "frame.csv", frame_rows(result["frame"]))
     if "scaling" in result:
         save(folder / "scaling.csv", scaling_rows(result["scaling"]))
-    if "scenes" in result:
+    if result.get("scenes"):
         save(folder / "hierarchy.csv", hierarchy_rows(result["scenes"]))
+    if result.get("pictures"):
+        save(folder / "pictures.csv", picture_rows(result["pictures"]))
+        save(folder / "time-to-error.csv", time_rows(result["pictures"]))
+        save(folder / "models.csv", model_rows(result["pictures"]))
 
 
 def save(path, rows):
@@ -62,6 +66,27 @@ def scaling_rows(scaling):
 def hierarchy_rows(scenes):
     return [{"scene": scene["name"], "cloudPoints": scene["points"], **curve_row(entry, method)}
             for scene in scenes for method in scene["methods"] for entry in method["curve"]]
+
+
+def picture_rows(scenes):
+    return [{"scene": scene["name"], "method": method["name"], "setting": entry["setting"],
+             "cpuS": entry["seconds"], "error": entry["error"],
+             **{key: entry.get(key) for key in ("bias", "maximum", "flip")}}
+            for scene in scenes for method in scene["methods"] for entry in method["curve"]]
+
+
+def time_rows(scenes):
+    return [{"scene": scene["name"], "method": method["name"], "error": target,
+             "cpuS": found["seconds"], "extrapolated": found["extrapolated"]}
+            for scene in scenes for method in scene["methods"]
+            for target, found in method["timeTo"].items()]
+
+
+def model_rows(scenes):
+    return [{"scene": scene["name"], "model": model["name"],
+             **{key: model[key] for key in ("mean", "meanStandardError", "rms",
+                                            "rmsStandardError")}}
+            for scene in scenes for model in scene["models"]]
 
 
 def summary(result):
@@ -134,16 +159,21 @@ def scene_summary(scene, about):
     lines.append("  what an interaction costs, near an error of 1 % (ours: asked for 1 %)")
     lines.append(" " * 26 + "     each  ns each  exps  roots  rows  flops  bytes  "
                  "Gflop/s (of peak)")
-    return lines + [counts_line(scene, method, about) for method in scene["methods"]]
+    return lines + [counts_line(method, about) for method in scene["methods"]]
 
 
-def counts_line(scene, method, about):
+def typical_row(method):
+    """Near an error of 1 %; of ours, asked for 1 %."""
     def distance(entry):
         if method["name"] == "ours":
             return abs(math.log(entry["setting"] / 0.01))
         return abs(math.log(max(entry["error"]["p999"], 1e-12) / 0.01))
 
-    row = curve_row(min(method["curve"], key=distance), method)
+    return curve_row(min(method["curve"], key=distance), method)
+
+
+def counts_line(method, about):
+    row = typical_row(method)
     return (f"  {method['label']:24}{row['interactions']:9.0f}{row['nsPerInteraction']:9.2f}"
             f"{row['exponentialsPerInteraction']:6.0f}{row['squareRootsPerInteraction']:7.0f}"
             f"{row['tableRowsPerInteraction']:6.0f}{row['flopsPerInteraction']:7.0f}"

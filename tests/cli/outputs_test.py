@@ -93,7 +93,7 @@ class Preprocess(CliTest):
         text = self.assert_ok(self.preprocess("--info", "out.ssc"))
         self.assertIn(str(stats["counts"]["points"]), text.out)
         info = json.loads(self.assert_ok(self.preprocess("--info", "out.ssc", "--json")).out)
-        self.assertEqual(info["format"], 1)
+        self.assertEqual(info["format"], 2)
         self.assertEqual(len(info["bodies"]), 1)
         self.assertEqual(info["bodies"][0]["points"], stats["counts"]["points"])
         self.assertEqual(info["bodies"][0]["nodes"], stats["counts"]["nodes"])
@@ -155,6 +155,25 @@ class Render(CliTest):
     def test_size_and_samples_override_the_scene(self):
         self.assert_ok(self.render(self.scene, "-o", "out.exr", "--size", "10x6", "--samples", "1"))
         self.assertEqual(read_png(self.folder / "out.png")[:2], (10, 6))
+
+    def test_exitance_is_kept_beside_the_cache(self):
+        def frame(*options):
+            self.assert_ok(self.render(self.scene, "--cache", "c.ssc", "-o", "out.exr", "--no-png",
+                                       "--stats", "stats.json", *options))
+            return (json.loads((self.folder / "stats.json").read_text())["counts"],
+                    (self.folder / "out.exr").read_bytes())
+
+        self.assert_ok(self.preprocess(self.scene, "-o", "c.ssc"))
+        alone, expected = frame("--no-keep")
+        self.assertNotIn("c.ssc.exitance", self.files())
+        first, picture = frame()
+        self.assertIn("c.ssc.exitance", self.files())
+        self.assertEqual((first["exitanceGroupsReused"], picture), (0, expected))
+        self.assertEqual(first["exitanceGroups"], alone["exitanceGroups"])
+        again, picture = frame()
+        self.assertEqual((again["exitanceGroupsReused"], picture),
+                         (first["exitanceGroups"], expected))
+        self.assertEqual((again["exitanceGroups"], again["sumReceivers"]), (0, 0))
 
     def test_no_png(self):
         self.assert_ok(self.render(self.scene, "-o", "out.exr", "--no-png", "--quiet"))

@@ -1,6 +1,7 @@
 #include "sss/cloud/diffusion_sum.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace sss {
 namespace {
@@ -9,6 +10,12 @@ constexpr int kMostRounds = 8;
 // Receivers whose bounds are taken together: fewer see the near nodes more exactly, more share the
 // walk through the tree.
 constexpr std::uint32_t kReceiversPerLeaf = 8;
+// A leaf sums over every point that is about as near as its receivers are to each other. Where the
+// points are far denser than the receivers, that is more than each would need for itself.
+constexpr float kMostSpacingsPerLeaf = 4.0f;
+// A threshold that fits the whole group is this many shares of its darkest leaf at most: bounds are
+// added in quadrature because they are many, not a few large ones.
+constexpr double kLooseShare = 2.0;
 // Opening rule of the estimate: node radius against distance.
 constexpr float kCoarseOpening = 0.6f;
 constexpr std::uint32_t kRoot = 0;
@@ -31,7 +38,13 @@ void SumCounts::add(const SumCounts& other) {
 
 DiffusionSum::DiffusionSum(const CloudView& cloud, std::span<const OctreeNode> nodes,
                            const KernelTable& table)
-    : cloud_(cloud), nodes_(nodes), table_(table) {}
+    : cloud_(cloud),
+      nodes_(nodes),
+      table_(table),
+      mostLeafRadius_(nodes.empty() || cloud.size() == 0
+                          ? 0.0f
+                          : kMostSpacingsPerLeaf * std::sqrt(nodes[kRoot].areaMm2 /
+                                                             static_cast<float>(cloud.size()))) {}
 
 DRgb DiffusionSum::estimate(const ReceiverCell& cell, Scratch& scratch, SumCounts& counts) const {
     DRgb sum{0};
@@ -140,14 +153,20 @@ void DiffusionSum::finish(const ReceiverCell& leaf, const Inherited& from, Scrat
         counts.pointInteractions += scratch.points.size() * leaf.size();
         DRgb least = sums.front();
         for (const DRgb& sum : sums) least = glm::min(least, sum);
-        const DRgb allowed = glm::max(least, DRgb(0)) * from.goal.tolerance;
+        least = glm::max(least, DRgb(0));
+        const DRgb allowed = least * from.goal.tolerance;
         const DRgb error = bound.total() * DRgb(cell.threshold);
-        if (allBelow(error, allowed) || round + 1 == kMostRounds) break;
+        const DRgb share = least * nodeShare(from.goal.tolerance);
+        const DRgb over = DRgb(cell.threshold) - kLooseShare * share;
+        if ((allBelow(error, allowed) && allBelow(over, DRgb(0))) || round + 1 == kMostRounds)
+            break;
         // All anew, aiming at the bound with a little to spare.
-        for (int c = 0; c < 3; ++c)
-            if (error[c] > allowed[c])
-                cell.threshold[c] *=
-                    static_cast<float>(std::clamp(0.7 * allowed[c] / error[c], 0.02, 0.7));
+        for (int c = 0; c < 3; ++c) {
+            double factor = 1;
+            if (error[c] > allowed[c]) factor = 0.7 * allowed[c] / error[c];
+            if (over[c] > 0) factor = std::min(factor, share[c] / double{cell.threshold[c]});
+            if (factor < 1) cell.threshold[c] *= static_cast<float>(std::clamp(factor, 0.02, 0.7));
+        }
         ++counts.repeats;
         std::fill(sums.begin(), sums.end(), DRgb(0));
         bound = {};
@@ -161,7 +180,7 @@ void DiffusionSum::evaluate(std::span<const Vec3> receivers, double tolerance, s
     if (nodes_.empty() || receivers.empty()) return;
     counts.receivers += receivers.size();
     ++counts.groups;
-    buildReceiverTree(receivers, kReceiversPerLeaf, scratch.cells, scratch.order);
+    buildReceiverTree(receivers, kReceiversPerLeaf, mostLeafRadius_, scratch.cells, scratch.order);
     scratch.ordered.clear();
     for (const std::uint32_t i : scratch.order) scratch.ordered.push_back(receivers[i]);
     scratch.sums.assign(receivers.size(), DRgb(0));

@@ -103,6 +103,7 @@ private:
     CloudView cloud_;
     std::span<const OctreeNode> nodes_;
     const KernelTable& table_;
+    float mostLeafRadius_;
 };
 
 }  // namespace sss

@@ -43,6 +43,24 @@ const ExitanceGroup& ExitanceField::group(std::uint32_t index) const {
     return *found;
 }
 
+bool ExitanceField::adopt(std::uint32_t index, ExitanceGroup group) {
+    if (index >= groups_.size() || groups_[index].load() != nullptr) return false;
+    const std::vector<ExitanceSites::Patch> patches = sites_.patches(index);
+    if (patches.size() != group.segments.size()) return false;
+    for (std::size_t p = 0; p < patches.size(); ++p) {
+        const std::uint32_t n = group.segments[p];
+        if (n == 0 || n % patches[p].segments != 0) return false;
+    }
+    groups_[index].store(new ExitanceGroup(std::move(group)));
+    return true;
+}
+
+void ExitanceField::forEachGroup(
+    const std::function<void(std::uint32_t, const ExitanceGroup&)>& visit) const {
+    for (std::uint32_t i = 0; i < groups_.size(); ++i)
+        if (const ExitanceGroup* group = groups_[i].load()) visit(i, *group);
+}
+
 Rgb ExitanceField::at(FaceIndex face, const Vec2& barycentrics) const {
     const ExitanceSites::Location where = sites_.locate(face, barycentrics);
     return group(where.group).at(where.patch, where.inPatch);

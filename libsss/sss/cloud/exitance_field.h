@@ -5,6 +5,7 @@
 
 #include <atomic>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <span>
@@ -29,6 +30,11 @@ public:
     /// M at a place of the surface, W m^-2 per channel.
     Rgb at(FaceIndex face, const Vec2& barycentrics) const;
     ExitanceCounts counts() const;
+    /// Takes a group that was computed before, for this mesh, sum and tolerance. False, and nothing
+    /// done, if it does not fit the mesh or is there already. Not while others ask.
+    bool adopt(std::uint32_t index, ExitanceGroup group);
+    /// All groups that are there, by index. Not while others ask.
+    void forEachGroup(const std::function<void(std::uint32_t, const ExitanceGroup&)>& visit) const;
     const ExitanceSites& sites() const { return sites_; }
 
 private:

@@ -8,7 +8,7 @@
 
 namespace sss {
 
-void buildReceiverTree(std::span<const Vec3> receivers, std::uint32_t most,
+void buildReceiverTree(std::span<const Vec3> receivers, std::uint32_t most, float mostRadius,
                        std::vector<ReceiverCell>& cells, std::vector<std::uint32_t>& order) {
     order.resize(receivers.size());
     std::iota(order.begin(), order.end(), 0u);
@@ -23,7 +23,7 @@ void buildReceiverTree(std::span<const Vec3> receivers, std::uint32_t most,
         cell.centre = box.centre();
         for (auto i = first; i != last; ++i)
             cell.radius = std::max(cell.radius, glm::length(receivers[*i] - cell.centre));
-        if (cell.size() > most) {
+        if (cell.size() > 1 && (cell.size() > most || cell.radius > mostRadius)) {
             const Vec3 size = box.size();
             int axis = size.y > size.x ? 1 : 0;
             if (size.z > size[axis]) axis = 2;

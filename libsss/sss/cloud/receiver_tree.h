@@ -19,9 +19,10 @@ struct ReceiverCell {
 };
 
 /// The binary tree of a group of receivers, halved along the longest axis down to leaves of at most
-/// `most`; the root is cell 0. `order` becomes the receivers' indices, leaf after leaf. A function
-/// of the positions only. No receivers give no cells. O(n log n).
-void buildReceiverTree(std::span<const Vec3> receivers, std::uint32_t most,
+/// `most` receivers within `mostRadius`, or of one; the root is cell 0. `order` becomes the
+/// receivers' indices, leaf after leaf. A function of the positions only. No receivers give no
+/// cells. O(n log n).
+void buildReceiverTree(std::span<const Vec3> receivers, std::uint32_t most, float mostRadius,
                        std::vector<ReceiverCell>& cells, std::vector<std::uint32_t>& order);
 
 }  // namespace sss

@@ -21,6 +21,8 @@ public:
         return field_.at(face, barycentrics);
     }
     const DiffusionSum& sum() const { return sum_; }
+    ExitanceField& field() { return field_; }
+    const ExitanceField& field() const { return field_; }
     ExitanceCounts counts() const { return field_.counts(); }
 
 private:

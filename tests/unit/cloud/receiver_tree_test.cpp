@@ -12,8 +12,8 @@ namespace {
 struct Tree {
     std::vector<ReceiverCell> cells;
     std::vector<std::uint32_t> order;
-    Tree(std::span<const Vec3> receivers, std::uint32_t most) {
-        buildReceiverTree(receivers, most, cells, order);
+    Tree(std::span<const Vec3> receivers, std::uint32_t most, float mostRadius = 1e9f) {
+        buildReceiverTree(receivers, most, mostRadius, cells, order);
     }
 };
 
@@ -43,6 +43,16 @@ TEST(ReceiverTree, HoldsEveryReceiverOnceAndCellsAreSmall) {
     EXPECT_EQ(leaves, 8u);
     std::sort(tree.order.begin(), tree.order.end());
     for (std::uint32_t i = 0; i < receivers.size(); ++i) ASSERT_EQ(tree.order[i], i);
+}
+
+TEST(ReceiverTree, LeavesAreSmallInSpaceToo) {
+    const std::vector<Vec3> receivers{{0, 0, 0}, {0.1f, 0, 0}, {5, 0, 0}, {9, 0, 0}};
+    int single = 0;
+    for (const ReceiverCell& cell : Tree(receivers, 8, 0.2f).cells) {
+        EXPECT_EQ(cell.isLeaf(), cell.radius <= 0.2f);
+        single += cell.size() == 1;
+    }
+    EXPECT_EQ(single, 2);
 }
 
 TEST(ReceiverTree, FewOrCoincidentReceivers) {
