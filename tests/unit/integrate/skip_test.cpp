@@ -1,5 +1,6 @@
 // What is not computed because it brings nothing, or is known already.
 #include "sss/integrate/body_optics.h"
+#include "sss/integrate/single_scatter.h"
 #include "unit/integrate/pass_maker.h"
 
 #include <gtest/gtest.h>
@@ -8,7 +9,9 @@ namespace sss {
 namespace {
 
 using testing::grey;
+using testing::MadeClouds;
 using testing::measured;
+using testing::SceneMaker;
 
 // The same coefficients through a different profile object: a channel apart by the last bit.
 TranslucentMaterial nearlyGrey(const TranslucentMaterial& material) {
@@ -72,6 +75,68 @@ TEST(EqualChannels, KeepTheColoursTheyShow) {
     EXPECT_EQ(optics.equalChannels(), 2);
     EXPECT_EQ(optics.multipleScale.x, optics.multipleScale.y);
     EXPECT_LT(optics.multipleScale.z, optics.multipleScale.x);
+}
+
+// Two balls: a lamp that shines to one side only stands between them, close to the lit one.
+SceneMaker litAndUnlit() {
+    SceneMaker maker;
+    const int milk = maker.material(measured("Skimmilk"));
+    maker.object(SphereShape{3}, milk, testing::moved({8, 0, 0}));
+    maker.object(SphereShape{3}, milk, testing::moved({-60, 0, 0}));
+    RectangleLight lamp;
+    lamp.widthMm = lamp.heightMm = 6;
+    lamp.radiance = Rgb(5);
+    lamp.centre = {0, 0, 0};
+    lamp.lookAt = {8, 0, 0};
+    maker.light(lamp);
+    maker.scene.camera.position = {-26, 0, 220};
+    maker.scene.camera.lookAt = {-26, 0, 0};
+    maker.scene.camera.fovDegrees = 14;
+    maker.scene.film.width = 48;
+    maker.scene.film.height = 32;
+    maker.scene.film.samples = 8;
+    maker.scene.quality.bounces = 0;
+    maker.scene.quality.spacingMm = 0.6;
+    return maker;
+}
+
+TEST(SingleScattering, IsLeftOutWhereNoLightIsInReach) {
+    for (const int bounces : {0, 1}) {
+        SceneMaker maker = litAndUnlit();
+        maker.scene.quality.bounces = bounces;
+        const World world = maker.world();
+        std::vector<RenderResult> results;
+        for (const bool isLeftOut : {true, false}) {
+            const auto optics = makeBodyOptics(world);
+            ASSERT_GT(optics[0]->singleReachMm, 0);
+            ASSERT_LT(optics[0]->singleReachMm, 40);
+            // As far as the lamp's other side: nothing is left out then.
+            for (const auto& body : optics)
+                if (!isLeftOut) body->singleReachMm = 1000;
+            const MadeClouds made(world, optics);
+            results.push_back(testing::resultFrom(
+                world, optics, [&](std::size_t b) { return made.clouds[b].view(); }));
+        }
+        // With bounces, light may come from any surface that gets some.
+        EXPECT_EQ(results[0].counts.singleSkipped > 0, bounces == 0);
+        EXPECT_GT(results[0].counts.singleSamples, 0u);
+        EXPECT_EQ(results[1].counts.singleSkipped, 0u);
+        EXPECT_EQ(results[0].counts.singleSkipped + results[0].counts.singleSamples,
+                  results[1].counts.singleSamples);
+        for (const ImageLayer& layer : results[0].image.layers)
+            EXPECT_EQ(layer.values, results[1].image.find(layer.name)->values) << layer.name;
+        double single = 0;
+        for (const float v : results[0].image.find("single")->values)
+            single += static_cast<double>(v);
+        EXPECT_GT(single, 0);
+    }
+}
+
+TEST(SingleScattering, ReachesAsFarAsAnyoneNotices) {
+    TranslucentMaterial material = grey(0.5, 1.5, 1.3);
+    material.medium.sigmaS.y = 0;  // scatters nothing, however clear
+    EXPECT_NEAR(std::exp(-2 * static_cast<double>(BodyOptics(material).singleReachMm)), 1e-6, 5e-7);
+    EXPECT_EQ(BodyOptics(grey(1, 0, 1.3)).singleReachMm, 0);
 }
 
 }  // namespace
