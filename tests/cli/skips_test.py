@@ -39,6 +39,11 @@ class Skips(CliTest):
             self.assertNotIn(phase, stats["seconds"])
         self.assertEqual(stats["counts"].get("points", 0), 0)
         self.assertEqual(stats["counts"]["exitanceSites"], 0)
+        brdf = self.counts_of(scene, "--integrator", "brdf", output="brdf.exr")
+        self.assertEqual(brdf["passOneSkipped"], 1)
+        found = json.loads(self.assert_ok(self.render("--compare", "out.exr", "brdf.exr",
+                                                      "--json")).out)
+        self.assertEqual(found["maximum"]["mean"], 0)
 
     def test_dark_places(self):
         """The far side of a ball in sunlight, and nothing that reflects light there."""
@@ -51,8 +56,8 @@ class Skips(CliTest):
 
     def test_single_scattering_out_of_light(self):
         """Two balls; only one is in the cone of the lamp."""
-        balls = [{**SCENE["objects"][0], "name": name,
-                  "transform": [{"translate": [x, 0, 0]}]} for name, x in (("lit", 15), ("dark", -15))]
+        balls = [{**SCENE["objects"][0], "name": name, "transform": [{"translate": [x, 0, 0]}]}
+                 for name, x in (("lit", 15), ("dark", -15))]
         lamp = {"type": "spot", "position": [15, 30, 0], "lookAt": [15, 0, 0],
                 "intensity": 2000, "coneDegrees": 20, "penumbraDegrees": 2}
         camera = {"position": [0, 12, 90], "lookAt": [0, 0, 0], "fovDegrees": 28}

@@ -67,6 +67,30 @@ TEST(EqualChannels, ChangeNothing) {
     }
 }
 
+TEST(EqualChannels, GiveTheSamePicture) {
+    std::vector<LayeredImage> pictures;
+    for (const bool isApart : {false, true}) {
+        SceneMaker maker;
+        const TranslucentMaterial material = grey(0.1, 2, 1.3);
+        maker.object(BoxShape{DVec3(8)}, maker.material(isApart ? nearlyGrey(material) : material));
+        maker.light(DirectionalLight{{-1, -2, -0.5}, Rgb(3, 2, 1)});
+        maker.scene.camera.position = {6, 9, 20};
+        maker.scene.quality.irradianceSamples = 4;
+        pictures.push_back(testing::picture(maker.scene));
+    }
+    double sum = 0;
+    for (const char* layer : {"diffusion", "single"}) {
+        const std::vector<float>&a = pictures[0].find(layer)->values,
+              &b = pictures[1].find(layer)->values;
+        ASSERT_EQ(a.size(), b.size());
+        for (std::size_t i = 0; i < a.size(); ++i) {
+            EXPECT_NEAR(a[i], b[i], 1e-5f * a[i] + 1e-9f) << layer << ' ' << i;
+            sum += static_cast<double>(a[i]);
+        }
+    }
+    EXPECT_GT(sum, 0);
+}
+
 // Media alike may have been made from colours that are not: as much is taken off each.
 TEST(EqualChannels, KeepTheColoursTheyShow) {
     TranslucentMaterial material = grey(0.1, 2, 1.3);
