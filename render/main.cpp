@@ -13,6 +13,7 @@
 #include "sss/image/png_file.h"
 #include "sss/image/tone_map.h"
 #include "sss/integrate/cloud_cache.h"
+#include "sss/integrate/diffuse_limit.h"
 #include "sss/integrate/exitance_cache.h"
 #include "sss/integrate/integrator_table.h"
 #include "sss/integrate/renderer.h"
@@ -86,6 +87,7 @@ void recordRender(RunStats& stats, const Scene& scene, const RenderResult& resul
     stats.count("nan", result.dropped.samples);
     ExitanceCounts total;
     for (const auto& field : fields) {
+        if (!field) continue;
         const ExitanceCounts counts = field->counts();
         total.sums.add(counts.sums);
         total.groups += counts.groups;
@@ -99,7 +101,24 @@ void recordRender(RunStats& stats, const Scene& scene, const RenderResult& resul
     stats.count("localInteractions", total.sums.localInteractions);
     stats.count("nodeInteractions", total.sums.nodeInteractions);
     stats.count("pointInteractions", total.sums.pointInteractions);
+    stats.count("skippedNodes", total.sums.nodesSkipped);
+    stats.count("skippedPoints", total.sums.pointsSkipped);
     stats.value("instructionSet", accumulateTarget());
+}
+
+// What was left out because it brings nothing, or is known already.
+void recordSkips(RunStats& stats, const PathCounts& counts, bool needsFields,
+                 std::span<const std::unique_ptr<BodyOptics>> optics) {
+    int equalChannels = 0;
+    std::uint64_t limits = 0;
+    for (const auto& body : optics) {
+        equalChannels += body->equalChannels();
+        limits += body->inDiffuseLimit ? 1 : 0;
+    }
+    stats.count("equalChannels", static_cast<std::uint64_t>(equalChannels));
+    stats.count("diffuseLimitBodies", limits);
+    stats.count("passOneSkipped", needsFields && limits < optics.size() ? 0 : 1);
+    stats.count("singleScatteringSkipped", counts.singleSkipped);
 }
 
 // Share of the paths that may meet a surface where none should be, by rounding.
@@ -175,6 +194,7 @@ int run(int argc, const char* const* argv) {
     }
     const auto optics = makeBodyOptics(*world);
     const bool needsFields = integratorOf(world->scene()).needsFields;
+    if (needsFields) findDiffuseLimits(*world, optics, reporter);
     if (!needsFields && !options->cache.empty())
         throw Error(
             ErrorKind::Usage, "--cache",
@@ -195,8 +215,11 @@ int run(int argc, const char* const* argv) {
     {
         const auto timer = stats.seconds("render");
         for (std::size_t b = 0; needsFields && b < world->bodies().size(); ++b)
-            fields.push_back(std::make_unique<BodyField>(
-                world->bodies()[b], *optics[b], clouds.view(b), world->scene().quality.tolerance));
+            fields.push_back(optics[b]->inDiffuseLimit
+                                 ? nullptr
+                                 : std::make_unique<BodyField>(world->bodies()[b], *optics[b],
+                                                               clouds.view(b),
+                                                               world->scene().quality.tolerance));
         if (clouds.cache && !options->noKeep) {
             kept.emplace(options->cache, *world, optics);
             stats.count("exitanceGroupsReused", kept->load(fields, reporter));
@@ -211,6 +234,7 @@ int run(int argc, const char* const* argv) {
         if (kept) kept->save(fields, reporter);
     }
     recordRender(stats, world->scene(), result, fields);
+    recordSkips(stats, result.counts, needsFields, optics);
     stats.value("threads", ThreadLimit::current());
     if (!options->stats.empty()) stats.writeStats(options->stats);
     if (options->strict) reporter.requireNoWarnings();

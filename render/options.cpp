@@ -66,7 +66,7 @@ Pictures compared (this prints to standard output and needs no scene)
 Output
   -o, --output OUT.exr    layered OpenEXR; a tone-mapped OUT.png is written beside it
   --no-png                ... or not
-  --stats JSON            write what the run cost
+  --stats JSON            write what the run cost, and what was left out (see README.md)
 
 Run
   --threads N             0 = all cores [0]

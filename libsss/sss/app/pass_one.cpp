@@ -1,5 +1,7 @@
 #include "sss/app/pass_one.h"
 
+#include <fmt/core.h>
+
 namespace sss {
 namespace {
 
@@ -35,13 +37,26 @@ void record(const PassOne& made, std::span<const std::unique_ptr<BodyOptics>> op
         stats.count("rays", report.counts.rays);
         stats.count("nan", report.nonFinite);
         bodies.push(describe(report, *optics[b]));
-        if (report.spacingMm < made.reports[finest].spacingMm) finest = b;
+        const bool isFirst = !(made.reports[finest].spacingMm > 0);
+        if (report.spacingMm > 0 && (isFirst || report.spacingMm < made.reports[finest].spacingMm))
+            finest = b;
     }
-    if (!made.reports.empty()) {
+    if (!made.reports.empty() && made.reports[finest].spacingMm > 0) {
         stats.value("spacingMm", made.reports[finest].spacingMm);
         stats.value("meanFreePathMm", list(optics[finest]->material.medium.meanFreePathMm()));
     }
     stats.value("bodies", std::move(bodies));
+}
+
+// Far more points than a body can want, had it not been for its limit.
+void warnOfScale(const World& world, std::size_t body, const BodyOptics& optics,
+                 const PreprocessLimits& limits, Reporter& reporter) {
+    const Body& which = world.bodies()[body];
+    const std::size_t expected = expectedPoints(world, which, optics);
+    if (expected > limits.mostPoints)
+        reporter.warn("points", fmt::format("{}: would need {} points, were it not in its diffuse "
+                                            "limit: check the scale of the scene (metersPerUnit)",
+                                            which.name, expected));
 }
 
 }  // namespace
@@ -53,6 +68,13 @@ PassOne runPassOne(const World& world, std::span<const std::unique_ptr<BodyOptic
     for (std::size_t b = 0; b < made.reports.size(); ++b) {
         const int body = static_cast<int>(b);
         BodyReport& report = made.reports[b];
+        if (optics[b]->inDiffuseLimit) {
+            warnOfScale(world, b, *optics[b], limits, reporter);
+            report.name = world.bodies()[b].name;
+            report.areaMm2 = world.bodies()[b].mesh.area();
+            made.clouds.emplace_back();
+            continue;
+        }
         SurfaceSamples samples;
         std::vector<Rgb> irradiance;
         {

@@ -35,7 +35,8 @@ public:
     };
     static_assert(sizeof(BoundsRow) == 12 * sizeof(float));
 
-    /// `profiles` may hold the same pointer more than once. Distances up to `reachMm` matter;
+    /// `profiles` may hold the same pointer more than once: channels that share a profile are
+    /// evaluated once. Distances up to `reachMm` matter;
     /// beyond, and where a profile falls below 1e-30 of its peak, the table is 0.
     /// `cellRadiusMm` is the radius of a disk as large as a sample's cell.
     KernelTable(const std::array<const Profile*, 3>& profiles, double reachMm, double cellRadiusMm);

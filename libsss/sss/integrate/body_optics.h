@@ -12,7 +12,8 @@ struct BodyOptics {
     explicit BodyOptics(const TranslucentMaterial& material);
 
     const TranslucentMaterial& material;
-    std::array<std::unique_ptr<Profile>, 3> profiles;  ///< channels of equal media share values
+    /// Channels of equal coefficients share one profile, and whatever is made from it once.
+    std::array<std::shared_ptr<const Profile>, 3> profiles;
     float eta = 1;
     /// T: cosine-weighted mean of F_t over the hemisphere. M F_t(w_o) / (pi T) is radiance of
     /// exitance M exactly.
@@ -26,10 +27,20 @@ struct BodyOptics {
     /// Exitance per transmitted irradiance when mean free paths are short: the diffuse limit
     /// [JMLH01 section 2.4], single scattering included.
     Rgb diffuseAlbedo{0.0f};
+    /// Whether pass 2 may show the body by that limit (findDiffuseLimits()): then it needs no
+    /// points.
+    bool inDiffuseLimit = false;
+    /// mm into the body beyond which nothing scatters singly that anyone would notice; 0 where no
+    /// channel scatters.
+    float singleReachMm = 0;
 
     std::array<const Profile*, 3> profilePointers() const {
         return {profiles[0].get(), profiles[1].get(), profiles[2].get()};
     }
+    /// The first channel with the profile of this one.
+    int firstLike(int channel) const;
+    /// How many channels share the profile of an earlier one: 2 in a grey medium.
+    int equalChannels() const;
     /// F_t(w) / (pi T) at a cosine: turns exitance into radiance.
     float radiancePerExitance(float cosine) const;
 };

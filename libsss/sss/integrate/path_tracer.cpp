@@ -27,6 +27,7 @@ void PathCounts::add(const PathCounts& other) {
     rays += other.rays;
     diffusionLookups += other.diffusionLookups;
     singleSamples += other.singleSamples;
+    singleSkipped += other.singleSkipped;
     scatterings += other.scatterings;
     leaks += other.leaks;
     lost += other.lost;
@@ -105,10 +106,14 @@ Rgb PathTracer::diffusion(const SurfaceHit& hit, const Bsdf& bsdf, Sampler& samp
 
 Rgb PathTracer::single(const SurfaceHit& hit, const Bsdf& bsdf, const Vec3& wo, int bounces,
                        Sampler& sampler, PathCounts& counts) const {
+    const BodyOptics& optics = *optics_[static_cast<std::size_t>(hit.body)];
+    if (!mayScatterOnce(world_, optics, hit.position)) {
+        ++counts.singleSkipped;
+        return Rgb(0);
+    }
     SingleScatterCounts spent;
     const Rgb radiance = singleScattering(
-        world_, *optics_[static_cast<std::size_t>(hit.body)], hit, wo, bsdf.shadingNormal(),
-        sampler,
+        world_, optics, hit, wo, bsdf.shadingNormal(), sampler,
         [&](const Ray& ray, const Vec3& from, float pdf) {
             return incoming(ray, {from, pdf}, std::min(bounces, 1), sampler, counts);
         },

@@ -19,9 +19,10 @@ struct PathCounts {
     std::uint64_t rays = 0;  ///< of all kinds
     std::uint64_t diffusionLookups = 0;
     std::uint64_t singleSamples = 0;
-    std::uint64_t scatterings = 0;  ///< inside bodies, one by one (radiative transfer)
-    std::uint64_t leaks = 0;        ///< times a path met its body's surface where none should be
-    std::uint64_t lost = 0;         ///< paths that did not end
+    std::uint64_t singleSkipped = 0;  ///< for want of light within reach
+    std::uint64_t scatterings = 0;    ///< inside bodies, one by one (radiative transfer)
+    std::uint64_t leaks = 0;          ///< times a path met its body's surface where none should be
+    std::uint64_t lost = 0;           ///< paths that did not end
     std::uint64_t volumeStretches = 0;  ///< of paths, looked at for volumes; 0 without volumes
 
     void add(const PathCounts& other);

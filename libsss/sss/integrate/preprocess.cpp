@@ -23,6 +23,12 @@ double pointSpacingMm(const World& world, const Body& body, const BodyOptics& op
     return std::isfinite(spacing) ? spacing : body.mesh.bounds().diagonal();
 }
 
+std::size_t expectedPoints(const World& world, const Body& body, const BodyOptics& optics) {
+    SamplerOptions options;
+    options.spacingMm = pointSpacingMm(world, body, optics);
+    return expectedPointCount(body.mesh.area(), options);
+}
+
 SurfaceSamples placePoints(const World& world, int bodyIndex, const BodyOptics& optics,
                            const PreprocessLimits& limits, Reporter& reporter, BodyReport& report) {
     const Body& body = world.bodies()[static_cast<std::size_t>(bodyIndex)];
@@ -31,7 +37,7 @@ SurfaceSamples placePoints(const World& world, int bodyIndex, const BodyOptics& 
     options.seed = world.scene().quality.seed;
     report.name = body.name;
     report.areaMm2 = body.mesh.area();
-    const std::size_t expected = expectedPointCount(report.areaMm2, options);
+    const std::size_t expected = expectedPoints(world, body, optics);
     if (expected > limits.mostPoints)
         throw Error(ErrorKind::Resource, body.name,
                     fmt::format("would need {} points at a spacing of {:.4g} mm; the limit is {}",

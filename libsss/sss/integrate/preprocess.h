@@ -33,6 +33,9 @@ struct BodyReport {
 /// Spacing that the points of a body get: the scene's own, or from tolerance and mean free path.
 double pointSpacingMm(const World& world, const Body& body, const BodyOptics& optics);
 
+/// About how many points that makes.
+std::size_t expectedPoints(const World& world, const Body& body, const BodyOptics& optics);
+
 // Pass 1 of one body, in its three steps. Each fills its part of the report.
 
 /// Throws Error{Resource} over the limit.

@@ -50,8 +50,9 @@ struct Frame {
           optics(makeBodyOptics(world)),
           made(world, optics),
           cache(file, world, optics) {
-        fields.push_back(std::make_unique<BodyField>(
-            world.bodies()[0], *optics[0], made.clouds[0].view(), scene.quality.tolerance));
+        for (std::size_t b = 0; b < optics.size(); ++b)
+            fields.push_back(std::make_unique<BodyField>(
+                world.bodies()[b], *optics[b], made.clouds[b].view(), scene.quality.tolerance));
     }
     std::uint64_t load() { return cache.load(fields, warnings); }
     void save() { cache.save(fields, warnings); }
@@ -112,6 +113,30 @@ TEST(ExitanceCache, FramesAddWhatTheySeeForTheFirstTime) {
     later.load();
     EXPECT_TRUE(sameBytes(later.look(0, 12), expected));
     EXPECT_EQ(later.counts().groups, 0u);
+}
+
+// From afar a body may be in its diffuse limit and have no field; what is known of it stays.
+TEST(ExitanceCache, KeepsWhatAFrameDoesNotWant) {
+    const TemporaryFolder folder;
+    Scene scene = lampOverBox();
+    scene.objects.push_back(scene.objects[0]);
+    scene.objects[1].name = "other";
+    scene.objects[1].transform = {testing::moved({20, 0, 0})};
+    Frame near(scene, folder / "c.ssc");
+    near.look(0, 3);
+    near.fields[1]->exitance(0, {0.2f, 0.2f});
+    near.save();
+    const std::uint64_t first = near.counts().groups, other = near.fields[1]->counts().groups;
+    ASSERT_GT(other, 0u);
+
+    Frame far(scene, folder / "c.ssc");
+    far.fields[1].reset();
+    EXPECT_EQ(far.load(), first);
+    far.look(0, 12);
+    const std::uint64_t added = far.counts().groups;
+    ASSERT_GT(added, 0u);
+    far.save();
+    EXPECT_EQ(Frame(scene, folder / "c.ssc").load(), first + other + added);
 }
 
 TEST(ExitanceCache, NothingStaleIsUsed) {
