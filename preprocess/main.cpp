@@ -9,7 +9,7 @@
 #include "sss/cloud/ply_export.h"
 #include "sss/integrate/cloud_cache.h"
 #include "sss/integrate/preprocess.h"
-#include "sss/scene/boundary_override.h"
+#include "sss/scene/material_override.h"
 #include "sss/scene/scene_reader.h"
 
 #include <fmt/core.h>
@@ -52,6 +52,7 @@ void applyOverrides(Scene& scene, const PreprocessOptions& options) {
     if (options.tolerance) scene.quality.tolerance = *options.tolerance;
     if (options.spacingMm) scene.quality.spacingMm = *options.spacingMm;
     if (options.seed) scene.quality.seed = *options.seed;
+    if (options.onShape) setDiffusion(scene, *options.onShape);
     if (options.boundary) setBoundary(scene, *options.boundary);
 }
 

@@ -17,7 +17,7 @@
 #include "sss/integrate/exitance_cache.h"
 #include "sss/integrate/integrator_table.h"
 #include "sss/integrate/renderer.h"
-#include "sss/scene/boundary_override.h"
+#include "sss/scene/material_override.h"
 #include "sss/scene/scene_reader.h"
 
 #include <fmt/core.h>
@@ -33,6 +33,7 @@ void applyOverrides(Scene& scene, const RenderOptions& options) {
     if (options.samples) scene.film.samples = *options.samples;
     if (options.width) scene.film.width = *options.width;
     if (options.height) scene.film.height = *options.height;
+    if (options.onShape) setDiffusion(scene, *options.onShape);
     if (options.profile.boundary) setBoundary(scene, *options.profile.boundary);
 }
 

@@ -3,7 +3,7 @@
 #include "sss/base/error.h"
 #include "sss/base/near_name.h"
 #include "sss/integrate/integrator_table.h"
-#include "sss/scene/boundary_override.h"
+#include "sss/scene/material_override.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/core.h>
@@ -38,6 +38,8 @@ Quality
   --seed N                of all random numbers [the scene's, or 0]
   --max-points N          without --cache: refuse an object with more [20000000]
 
+  --model MODEL           diffusion by profile, or on the shape: solved on the body
+                          itself, closed bodies only [the scene's, or profile]
   --boundary KIND         exact, or polynomial: the papers' Fresnel fits, for all
                           translucent materials [the scene's, or exact]
 
@@ -188,7 +190,7 @@ std::optional<RenderOptions> readOptions(int argc, const char* const* argv) {
     CLI::App app;
     app.set_help_flag();
     bool help = false, version = false;
-    std::string size, radii, boundary;
+    std::string size, radii, boundary, model;
     app.add_flag("-h,--help", help);
     app.add_flag("--version", version);
     app.add_option("scene", o.scene);
@@ -203,6 +205,7 @@ std::optional<RenderOptions> readOptions(int argc, const char* const* argv) {
     app.add_option("--seed", o.seed)->check(CLI::NonNegativeNumber);
     app.add_option("--max-points", o.maxPoints)->check(CLI::NonNegativeNumber);
     app.add_option("--threads", o.threads)->check(CLI::NonNegativeNumber);
+    app.add_option("--model", model);
     app.add_option("--boundary", boundary);
     app.add_flag("--list-materials", o.listMaterials);
     app.add_flag("--json", o.compare.json);
@@ -232,6 +235,7 @@ std::optional<RenderOptions> readOptions(int argc, const char* const* argv) {
         return std::nullopt;
     }
     readSize(size, o);
+    if (!model.empty()) o.onShape = sss::diffusionOnShape(model, "--model");
     if (!boundary.empty()) o.profile.boundary = sss::boundaryModel(boundary, "--boundary");
     if (!radii.empty()) o.profile.radiiMm = readRadii(radii);
     checkMaterials(o, radiiOption->count() > 0);

@@ -22,6 +22,21 @@ JsonValue describe(const BodyReport& report, const BodyOptics& optics) {
         .set("expectedQuadratureError", report.expectedQuadratureError)
         .set("irradianceSamples", report.irradianceSamples)
         .set("irradianceNoise", report.irradianceNoise);
+    if (report.shape) {
+        const ShapeExitance& shape = *report.shape;
+        JsonValue solved = JsonValue::object();
+        solved.set("sums", shape.report.layers.sums)
+            .set("iterations", shape.report.solve.iterations)
+            .set("residual", list(shape.report.solve.residual))
+            .set("nodeInteractions", shape.report.layers.nodeInteractions)
+            .set("pointInteractions", shape.report.layers.pointInteractions)
+            .set("sourceInteractions", shape.report.sources.interactions())
+            .set("leaves", list(shape.leaves))
+            .set("single", list(shape.single))
+            .set("unscattered", list(shape.unscattered))
+            .set("absorbed", list(shape.absorbed));
+        body.set("shape", std::move(solved));
+    }
     return body;
 }
 
@@ -76,17 +91,24 @@ PassOne runPassOne(const World& world, std::span<const std::unique_ptr<BodyOptic
             continue;
         }
         SurfaceSamples samples;
-        std::vector<Rgb> irradiance;
+        IrradianceResult light;
         {
             const auto timer = stats.seconds("points");
             samples = placePoints(world, body, *optics[b], limits, reporter, report);
         }
         {
             const auto timer = stats.seconds("irradiance");
-            irradiance = lightPoints(world, body, samples, optics, reporter, report);
+            light = lightPoints(world, body, samples, optics, reporter, report);
         }
-        const auto timer = stats.seconds("octree");
-        made.clouds.push_back(buildCloud(std::move(samples), std::move(irradiance), report));
+        {
+            const auto timer = stats.seconds("octree");
+            made.clouds.push_back(buildCloud(samples, std::move(light.irradiance), report));
+        }
+        if (optics[b]->onShape) {
+            const auto timer = stats.seconds("shape");
+            shapeCloud(world, body, samples, light.beams, optics, made.clouds.back(), reporter,
+                       report);
+        }
     }
     record(made, optics, stats);
     return made;

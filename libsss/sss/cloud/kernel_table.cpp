@@ -41,13 +41,6 @@ KernelTable::KernelTable(const std::array<const Profile*, 3>& profiles, double r
     boundDerivatives(regularised);
 }
 
-std::size_t KernelTable::rowOf(float distanceSquaredMm2) const {
-    const auto bits = std::bit_cast<std::uint32_t>(distanceSquaredMm2 + u0_);
-    const auto row = static_cast<std::int32_t>(bits >> kShift) - base_;
-    return static_cast<std::size_t>(
-        std::clamp(row, 0, static_cast<std::int32_t>(rows_.size()) - 1));
-}
-
 namespace {
 
 // The first channel with the same profile: its rows serve for both.
@@ -163,16 +156,6 @@ void KernelTable::boundDerivatives(const Regularised& profiles) {
         for (int k = 0; k < 4; ++k)
             bounds_[i].derivative[k] =
                 glm::max(bounds_[i].derivative[k], bounds_[i + 1].derivative[k]);
-}
-
-KernelTable::Place KernelTable::placeOf(float distanceSquaredMm2) const {
-    const auto bits = std::bit_cast<std::uint32_t>(distanceSquaredMm2 + u0_);
-    constexpr std::uint32_t kRows = 1u << kShift;
-    // Segments an octave over the power of two below u + u0.
-    const float scale = std::bit_cast<float>((254u << 23) - (bits & 0x7f800000u)) *
-                        static_cast<float>(1 << kSegmentBits);
-    return {&rows_[rowOf(distanceSquaredMm2)],
-            static_cast<float>(bits & (kRows - 1)) * (1.0f / static_cast<float>(kRows)), scale};
 }
 
 Rgb KernelTable::evaluate(float distanceSquaredMm2) const {

@@ -25,7 +25,8 @@ double singleReach(const Medium& medium) {
 
 }  // namespace
 
-BodyOptics::BodyOptics(const TranslucentMaterial& translucent) : material(translucent) {
+BodyOptics::BodyOptics(const TranslucentMaterial& translucent, bool solvesShape)
+    : material(translucent), onShape(solvesShape) {
     eta = static_cast<float>(translucent.medium.eta);
     transmittance = static_cast<float>(hemisphericalTransmittance(translucent.medium.eta));
     for (int c = 0; c < 3; ++c) {
@@ -47,6 +48,11 @@ BodyOptics::BodyOptics(const TranslucentMaterial& translucent) : material(transl
         }
         multipleScale[c] =
             static_cast<float>(multipleScatterScale(*profile, channel, translucent.energy, shown));
+    }
+    if (onShape) {
+        // Of the half-space, about: what it would be scaled by is what is left of it.
+        indirectScale = 1.0f / glm::max(multipleScale, Rgb(1e-3f));
+        multipleScale = Rgb(1);
     }
     singleReachMm = static_cast<float>(singleReach(translucent.medium));
     double lowestAlbedo = 1;

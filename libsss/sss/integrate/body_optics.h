@@ -9,7 +9,7 @@ namespace sss {
 
 /// What light transport needs to know of a body's material, computed once.
 struct BodyOptics {
-    explicit BodyOptics(const TranslucentMaterial& material);
+    explicit BodyOptics(const TranslucentMaterial& material, bool solvesShape = false);
 
     const TranslucentMaterial& material;
     /// Channels of equal coefficients share one profile, and whatever is made from it once.
@@ -21,6 +21,12 @@ struct BodyOptics {
     /// By which the diffusion sum is scaled before it leaves, so that light scattered once is not
     /// counted again by single scattering (medium/energy.h); 1 without single scattering.
     Rgb multipleScale{1.0f};
+    /// Whether diffusion is solved on the body's shape: then it leaves out by itself, place by
+    /// place, what is scattered once, and is not scaled.
+    bool onShape = false;
+    /// By which it is scaled where it is seen at second hand and nobody looks for single
+    /// scattering.
+    Rgb indirectScale{1.0f};
     /// Share of the camera samples that look for single scattering (weighted up accordingly): half
     /// of them where it is a small part of what leaves, as it is at high albedo.
     float singleProbability = 1;

@@ -9,7 +9,7 @@ namespace sss {
 namespace {
 
 constexpr std::string_view kPoints = "points", kIrradiance = "irrad", kOctree = "octree",
-                           kMeta = "meta";
+                           kShape = "shape", kMeta = "meta";
 
 JsonValue list(const DRgb& v) {
     JsonValue array = JsonValue::array();
@@ -79,6 +79,8 @@ void writeCloudCache(const std::filesystem::path& path, const World& world,
         writer.add<SurfacePoint>(kPoints, b, points, clouds[b].points);
         writer.add<Rgb>(kIrradiance, b, light, clouds[b].irradiance);
         writer.add<OctreeNode>(kOctree, b, light, clouds[b].nodes);
+        if (!clouds[b].correction.empty())
+            writer.add<Rgb>(kShape, b, combined(inputs), clouds[b].correction);
         bodies.push(describeBody(world, index, reports[b], inputs));
     }
     JsonValue meta = JsonValue::object();
@@ -109,13 +111,15 @@ CloudCache::CloudCache(const std::filesystem::path& path, const World& world,
         const auto inputs =
             bodyInputs(world, static_cast<int>(b), pointSpacingMm(world, body, *optics[b]));
         for (const InputFingerprint& input : inputs) {
-            const JsonValue& stored = member(hashes, input.key, where);
-            if (!stored.isString() || stored.asString() != input.value.hex())
+            const JsonMember* stored = hashes.isObject() ? hashes.find(input.key) : nullptr;
+            if (!stored || !stored->value.isString() ||
+                stored->value.asString() != input.value.hex())
                 refuse(where, fmt::format("for object \"{}\", {}", body.name, input.sentence));
             all.add(input.value);
         }
         const JsonValue& spacing = member(bodies[b], "spacingMm", where);
         spacingMm_.push_back(spacing.isNumber() ? spacing.asNumber() : 0.0);
+        wantsShape_.push_back(optics[b]->onShape);
         checkNodes(b);
     }
     fingerprint_ = all.finish().hex();
@@ -128,6 +132,8 @@ void CloudCache::checkNodes(std::uint32_t body) const {
     const auto irradiance = file_.section<Rgb>(kIrradiance, body);
     const auto nodes = file_.section<OctreeNode>(kOctree, body);
     bool sound = irradiance.size() == points.size() && (points.empty() == nodes.empty());
+    if (file_.find(kShape, body))
+        sound = sound && file_.section<Rgb>(kShape, body).size() == points.size();
     for (std::size_t n = 0; n < nodes.size() && sound; ++n) {
         const std::uint64_t end = std::uint64_t{nodes[n].first} + nodes[n].size();
         sound =
@@ -143,7 +149,8 @@ BodyCloud::View CloudCache::view(std::size_t body) const {
     const auto b = static_cast<std::uint32_t>(body);
     return {{file_.section<SurfacePoint>(kPoints, b), file_.section<Rgb>(kIrradiance, b)},
             file_.section<OctreeNode>(kOctree, b),
-            spacingMm_[body]};
+            spacingMm_[body],
+            wantsShape_[body] ? file_.section<Rgb>(kShape, b) : std::span<const Rgb>()};
 }
 
 JsonValue describeCache(const std::filesystem::path& path) {

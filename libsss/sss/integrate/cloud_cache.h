@@ -29,6 +29,7 @@ private:
 
     CacheFile file_;
     std::vector<double> spacingMm_;
+    std::vector<bool> wantsShape_;
     std::string fingerprint_;
 };
 

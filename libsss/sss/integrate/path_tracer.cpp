@@ -104,18 +104,19 @@ Rgb PathTracer::diffusion(const SurfaceHit& hit, const Bsdf& bsdf, Sampler& samp
            optics.radiancePerExitance(bsdf.cosOutgoing());
 }
 
-Rgb PathTracer::single(const SurfaceHit& hit, const Bsdf& bsdf, const Vec3& wo, int bounces,
-                       Sampler& sampler, PathCounts& counts) const {
+Rgb PathTracer::singleScatteringAt(const SurfaceHit& hit, const Vec3& wo, const Vec3& normal,
+                                   Sampler& sampler, PathCounts& counts) const {
     const BodyOptics& optics = *optics_[static_cast<std::size_t>(hit.body)];
     if (!mayScatterOnce(world_, optics, hit.position)) {
         ++counts.singleSkipped;
         return Rgb(0);
     }
     SingleScatterCounts spent;
+    const int bounces = std::min(world_.scene().quality.bounces, 1);
     const Rgb radiance = singleScattering(
-        world_, optics, hit, wo, bsdf.shadingNormal(), sampler,
+        world_, optics, hit, wo, normal, sampler,
         [&](const Ray& ray, const Vec3& from, float pdf) {
-            return incoming(ray, {from, pdf}, std::min(bounces, 1), sampler, counts);
+            return incoming(ray, {from, pdf}, bounces, sampler, counts);
         },
         spent);
     counts.singleSamples += spent.samples;
@@ -163,10 +164,12 @@ Rgb PathTracer::followed(Ray ray, ScatterOrigin origin, int bounces, Sampler& sa
         Bsdf bsdf = bsdfAt(hit, wo);
         isWide = isWide || origin.pdf < kWideLobe;
         if (isWide) bsdf.roughenForIndirect();
-        // Seen at second hand, all that comes from within is taken from the diffusion, unscaled:
-        // the profile's total has the light scattered once in it.
-        const Rgb direct = directLight(hit, bsdf, sampler, counts);
-        sum += throughput * (direct + diffusion(hit, bsdf, sampler, counts));
+        sum += throughput * directLight(hit, bsdf, sampler, counts);
+        // Seen at second hand, all that comes from within is taken from the diffusion: the
+        // profile's total has the light scattered once in it.
+        if (hit.body >= 0)
+            sum += throughput * diffusion(hit, bsdf, sampler, counts) *
+                   optics_[static_cast<std::size_t>(hit.body)]->indirectScale;
         if (!scatter(hit, bsdf, sampler, ray, origin, throughput)) return sum;
         if (depth + 1 >= kRouletteDepth) {
             const float survival = std::min(0.95f, maxComponent(throughput));
@@ -192,8 +195,9 @@ void PathTracer::shade(const FirstSurface& surface, const Ray& ray, Sampler& sam
         const BodyOptics& optics = *optics_[static_cast<std::size_t>(hit.body)];
         seen.diffusion = diffusion(hit, bsdf, sampler, counts) * optics.multipleScale;
         if (optics.material.singleScattering && sampler.next1D() < optics.singleProbability)
-            seen.single = single(hit, bsdf, -ray.direction, bounces, sampler, counts) /
-                          optics.singleProbability;
+            seen.single =
+                singleScatteringAt(hit, -ray.direction, bsdf.shadingNormal(), sampler, counts) /
+                optics.singleProbability;
     }
     Ray next;
     ScatterOrigin origin;

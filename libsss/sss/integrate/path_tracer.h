@@ -62,6 +62,10 @@ public:
         return followed(ray, origin, bounces, sampler, counts);
     }
 
+    /// An estimate of the radiance that leaves a body towards `wo` after one scattering inside it.
+    Rgb singleScatteringAt(const SurfaceHit& hit, const Vec3& wo, const Vec3& normal,
+                           Sampler& sampler, PathCounts& counts) const;
+
     /// Light that reaches a surface straight from a light and is scattered there, by light
     /// sampling, weighted against sampling the BSDF.
     Rgb directLight(const SurfaceHit& hit, const Bsdf& bsdf, Sampler& sampler,
@@ -70,8 +74,6 @@ public:
 private:
     Rgb diffusion(const SurfaceHit& hit, const Bsdf& bsdf, Sampler& sampler,
                   PathCounts& counts) const;
-    Rgb single(const SurfaceHit& hit, const Bsdf& bsdf, const Vec3& wo, int bounces,
-               Sampler& sampler, PathCounts& counts) const;
     /// The same through surfaces.
     Rgb followed(Ray ray, ScatterOrigin origin, int bounces, Sampler& sampler,
                  PathCounts& counts) const;

@@ -2,17 +2,31 @@
 
 #include "sss/base/error.h"
 #include "sss/cloud/surface_sampler.h"
+#include "sss/integrate/integrator_table.h"
 #include "sss/integrate/irradiance.h"
+#include "sss/integrate/single_exitance.h"
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace sss {
+namespace {
+
+// Single scattering's exitance is smoothed between points and is a small part of what leaves.
+constexpr int kLightPerSingleSample = 2;
+
+}  // namespace
+
 std::vector<std::unique_ptr<BodyOptics>> makeBodyOptics(const World& world) {
     std::vector<std::unique_ptr<BodyOptics>> optics;
-    for (const Body& body : world.bodies())
-        optics.push_back(std::make_unique<BodyOptics>(world.materialOf(body)));
+    const bool usesFields = integratorOf(world.scene()).needsFields;
+    for (const Body& body : world.bodies()) {
+        const TranslucentMaterial& material = world.materialOf(body);
+        optics.push_back(
+            std::make_unique<BodyOptics>(material, material.onShape && body.closed && usesFields));
+    }
     return optics;
 }
 
@@ -54,11 +68,12 @@ SurfaceSamples placePoints(const World& world, int bodyIndex, const BodyOptics& 
     return samples;
 }
 
-std::vector<Rgb> lightPoints(const World& world, int body, const SurfaceSamples& samples,
+IrradianceResult lightPoints(const World& world, int body, const SurfaceSamples& samples,
                              std::span<const std::unique_ptr<BodyOptics>> optics,
                              Reporter& reporter, BodyReport& report) {
     const PathTracer tracer(world, optics, {});
-    IrradianceResult light = computeIrradiance(world, body, samples, tracer, reporter);
+    const bool wantsBeams = optics[static_cast<std::size_t>(body)]->onShape;
+    IrradianceResult light = computeIrradiance(world, body, samples, tracer, reporter, wantsBeams);
     report.irradianceNoise = light.pointNoise;
     report.irradianceSamples = light.samplesPerPoint;
     report.counts = light.counts;
@@ -70,17 +85,50 @@ std::vector<Rgb> lightPoints(const World& world, int body, const SurfaceSamples&
                                        "{:.2g} %",
                                        report.name, light.samplesPerPoint, light.counts.rays,
                                        100 * light.pointNoise));
-    return std::move(light.irradiance);
+    return light;
 }
 
-BodyCloud buildCloud(SurfaceSamples samples, std::vector<Rgb> irradiance, BodyReport& report) {
+BodyCloud buildCloud(const SurfaceSamples& samples, std::vector<Rgb> irradiance,
+                     BodyReport& report) {
     BodyCloud cloud;
-    cloud.points = std::move(samples.points);
+    cloud.points = samples.points;
     cloud.irradiance = std::move(irradiance);
     cloud.spacingMm = report.spacingMm;
     cloud.nodes = buildOctree({cloud.points, cloud.irradiance});
     report.nodes = cloud.nodes.size();
     return cloud;
+}
+
+void shapeCloud(const World& world, int body, const SurfaceSamples& samples,
+                const EnteredBeams& beams, std::span<const std::unique_ptr<BodyOptics>> optics,
+                BodyCloud& cloud, Reporter& reporter, BodyReport& report) {
+    const BodyOptics& own = *optics[static_cast<std::size_t>(body)];
+    std::vector<Rgb> once;
+    if (own.material.singleScattering) {
+        const PathTracer tracer(world, optics, nullptr);
+        once = singleExitance(world, body, samples, tracer,
+                              std::max(1, report.irradianceSamples / kLightPerSingleSample),
+                              report.counts);
+    }
+    ShapeExitance shape = solveShape(world, body, own, cloud, beams, once);
+    cloud.correction = std::move(shape.correction);
+    const GmresReport& solve = shape.report.solve;
+    const auto percent = [](const DRgb& v) {
+        return fmt::format("{:.3g} {:.3g} {:.3g} %", 100 * v.x, 100 * v.y, 100 * v.z);
+    };
+    reporter.info("shape", fmt::format("{}: {} sums, residual {:.2g}; of the light that enters, {} "
+                                       "leave by multiple scattering, {} by single, {} go straight "
+                                       "through, {} are absorbed",
+                                       report.name, solve.iterations, maxComponent(solve.residual),
+                                       percent(shape.leaves), percent(shape.single),
+                                       percent(shape.unscattered), percent(shape.absorbed)));
+    if (!solve.converged)
+        reporter.warn("shape",
+                      fmt::format("{}: after {} sums the equations hold to {:.2g} only: "
+                                  "its surface cuts itself, or lies closer to itself than "
+                                  "the points' spacing; set --spacing to refine",
+                                  report.name, solve.iterations, maxComponent(solve.residual)));
+    report.shape = std::move(shape);
 }
 
 }  // namespace sss

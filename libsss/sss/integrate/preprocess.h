@@ -2,10 +2,13 @@
 #include "sss/base/reporter.h"
 #include "sss/cloud/surface_sampler.h"
 #include "sss/integrate/body_cloud.h"
+#include "sss/integrate/irradiance.h"
 #include "sss/integrate/path_tracer.h"
+#include "sss/integrate/shape_exitance.h"
 #include "sss/integrate/spacing.h"
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,6 +31,7 @@ struct BodyReport {
     int irradianceSamples = 0;           ///< per point
     std::uint64_t nonFinite = 0;         ///< light samples dropped as NaN or infinite
     PathCounts counts;
+    std::optional<ShapeExitance> shape;  ///< without its correction
 };
 
 /// Spacing that the points of a body get: the scene's own, or from tolerance and mean free path.
@@ -36,14 +40,20 @@ double pointSpacingMm(const World& world, const Body& body, const BodyOptics& op
 /// About how many points that makes.
 std::size_t expectedPoints(const World& world, const Body& body, const BodyOptics& optics);
 
-// Pass 1 of one body, in its three steps. Each fills its part of the report.
+// Pass 1 of one body, in its steps. Each fills its part of the report.
 
 /// Throws Error{Resource} over the limit.
 SurfaceSamples placePoints(const World& world, int body, const BodyOptics& optics,
                            const PreprocessLimits& limits, Reporter& reporter, BodyReport& report);
-std::vector<Rgb> lightPoints(const World& world, int body, const SurfaceSamples& samples,
+IrradianceResult lightPoints(const World& world, int body, const SurfaceSamples& samples,
                              std::span<const std::unique_ptr<BodyOptics>> optics,
                              Reporter& reporter, BodyReport& report);
-BodyCloud buildCloud(SurfaceSamples samples, std::vector<Rgb> irradiance, BodyReport& report);
+BodyCloud buildCloud(const SurfaceSamples& samples, std::vector<Rgb> irradiance,
+                     BodyReport& report);
+/// Diffusion on the shape of a body that asks for it (BodyOptics::onShape): fills the cloud's
+/// correction.
+void shapeCloud(const World& world, int body, const SurfaceSamples& samples,
+                const EnteredBeams& beams, std::span<const std::unique_ptr<BodyOptics>> optics,
+                BodyCloud& cloud, Reporter& reporter, BodyReport& report);
 
 }  // namespace sss

@@ -12,6 +12,8 @@ namespace {
 
 // Raised when the algorithms of pass 1 change what they make of the same input.
 constexpr std::uint64_t kPassOneVersion = 2;
+// The same for diffusion on the shape.
+constexpr std::uint64_t kShapeVersion = 1;
 
 void add(Hasher& h, const DVec3& v) { h.add(v.x).add(v.y).add(v.z); }
 void add(Hasher& h, const Rgb& v) { add(h, DVec3(v)); }
@@ -172,7 +174,21 @@ std::vector<InputFingerprint> bodyInputs(const World& world, int bodyIndex, doub
         .add(static_cast<std::uint64_t>(quality.bounces));
     inputs.push_back(
         {"irradiance", "irradiance samples or bounces of the light pass differ", light.finish()});
+    const TranslucentMaterial& material = world.materialOf(body);
+    if (material.onShape && body.closed) {
+        Hasher shape;
+        shape.add(kShapeVersion).add(quality.tolerance);
+        shape.add(std::uint64_t{material.singleScattering});
+        inputs.push_back(
+            {"shape", "it was made for another model of diffusion or tolerance", shape.finish()});
+    }
     return inputs;
+}
+
+Fingerprint combined(const std::vector<InputFingerprint>& inputs) {
+    Hasher h;
+    for (const InputFingerprint& input : inputs) h.add(input.value);
+    return h.finish();
 }
 
 Fingerprint combined(const std::vector<InputFingerprint>& inputs,

@@ -24,4 +24,7 @@ std::vector<InputFingerprint> bodyInputs(const World& world, int body, double sp
 Fingerprint combined(const std::vector<InputFingerprint>& inputs,
                      const std::vector<std::string_view>& keys);
 
+/// One fingerprint of them all.
+Fingerprint combined(const std::vector<InputFingerprint>& inputs);
+
 }  // namespace sss

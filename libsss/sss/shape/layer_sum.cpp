@@ -10,7 +10,6 @@
 namespace sss {
 namespace {
 
-constexpr std::uint32_t kReceiversPerCell = 32;
 // What one node may leave out of what all may: bounds have the worst direction at the nearest place
 // and signs that change from node to node (layer_sum_test measures what is left: below a third).
 constexpr float kNodeShare = 0.5f;
@@ -49,16 +48,19 @@ Rgb fromNode(const ChargeNode& node, const Vec3& d, const Radial& g) {
 }  // namespace
 
 void accumulateLayersScalar(const ChargeTree& tree, const KernelTable& green, const LayerList& list,
-                            const Rgb& perLength, const Vec3& receiver, DRgb& sum) {
-    for (const std::uint32_t n : list.nodes) {
-        const Vec3 d = tree.shapes()[n].centre - receiver;
-        sum += DRgb(fromNode(tree.charges()[n], d, radialAt(green, glm::dot(d, d))));
-    }
-    for (const std::uint32_t i : list.points) {
-        const Vec3 d = tree.cloud().points[i].position - receiver;
-        const Radial g = radialAt(green, glm::dot(d, d));
-        sum += DRgb(tree.areaFluence(i) *
-                    (g.f * perLength + 2.0f * glm::dot(tree.normal(i), d) * g.first));
+                            const Rgb& perLength, std::span<const Vec3> receivers,
+                            std::span<DRgb> sums) {
+    for (std::size_t r = 0; r < receivers.size(); ++r) {
+        for (const std::uint32_t n : list.nodes) {
+            const Vec3 d = tree.shapes()[n].centre - receivers[r];
+            sums[r] += DRgb(fromNode(tree.charges()[n], d, radialAt(green, glm::dot(d, d))));
+        }
+        for (const std::uint32_t i : list.points) {
+            const Vec3 d = tree.cloud().points[i].position - receivers[r];
+            const Radial g = radialAt(green, glm::dot(d, d));
+            sums[r] += DRgb(tree.areaFluence(i) *
+                            (g.f * perLength + 2.0f * glm::dot(tree.normal(i), d) * g.first));
+        }
     }
 }
 
@@ -70,7 +72,7 @@ LayerSum::LayerSum(const ChargeTree& tree, const KernelTable& green, const DRgb&
         const std::uint32_t n = stack.back();
         stack.pop_back();
         const OctreeNode& node = tree.nodes()[n];
-        if (node.isLeaf() || tree.ranges()[n].size() <= kReceiversPerCell) {
+        if (node.isLeaf() || tree.ranges()[n].size() <= kMostLayerReceivers) {
             cells_.push_back(n);
         } else {
             for (std::uint32_t k = 0; k < node.size(); ++k) stack.push_back(node.first + k);
@@ -111,6 +113,7 @@ void LayerSum::atPoints(std::span<const Rgb> allowed, std::span<DRgb> out,
     parallelFor(cells_.size(), 4, [&](std::size_t begin, std::size_t end) {
         LayerList list;
         std::vector<std::uint32_t> stack;
+        std::vector<Vec3> places;
         LayerCounts own;
         for (std::size_t k = begin; k < end; ++k) {
             const PointRange& range = tree_.ranges()[cells_[k]];
@@ -118,10 +121,17 @@ void LayerSum::atPoints(std::span<const Rgb> allowed, std::span<DRgb> out,
             for (std::uint32_t i = range.begin; i < range.end; ++i)
                 least = glm::min(least, allowed[i]);
             collect(cells_[k], least, list, stack);
-            for (std::uint32_t i = range.begin; i < range.end; ++i) {
-                out[i] = DRgb(0);
-                accumulateLayers(tree_, green_, list, perLength_, tree_.cloud().points[i].position,
-                                 out[i]);
+            // A leaf of points too close to tell apart may hold more than go at once.
+            for (std::uint32_t i = range.begin; i < range.end;) {
+                const std::uint32_t last =
+                    std::min<std::uint32_t>(range.end, i + kMostLayerReceivers);
+                places.clear();
+                for (std::uint32_t p = i; p < last; ++p)
+                    places.push_back(tree_.cloud().points[p].position);
+                const std::span<DRgb> sums = out.subspan(i, last - i);
+                std::fill(sums.begin(), sums.end(), DRgb(0));
+                accumulateLayers(tree_, green_, list, perLength_, places, sums);
+                i = last;
             }
             own.nodeInteractions += list.nodes.size() * range.size();
             own.pointInteractions += list.points.size() * range.size();
@@ -137,7 +147,8 @@ DRgb LayerSum::bruteForce(const Vec3& receiver) const {
     all.points.resize(tree_.cloud().size());
     std::iota(all.points.begin(), all.points.end(), 0u);
     DRgb sum{0};
-    accumulateLayersScalar(tree_, green_, all, perLength_, receiver, sum);
+    accumulateLayersScalar(tree_, green_, all, perLength_, std::span(&receiver, 1),
+                           std::span(&sum, 1));
     return sum;
 }
 

@@ -46,11 +46,15 @@ private:
     std::vector<std::uint32_t> cells_;  ///< nodes whose points are evaluated together
 };
 
-/// Adds the layers of a list's nodes and points at a place; chosen at run time for the processor.
+/// A cell's receivers at most.
+inline constexpr std::size_t kMostLayerReceivers = 32;
+/// Adds the layers of a list's nodes and points at up to kMostLayerReceivers places; chosen at run
+/// time for the processor.
 void accumulateLayers(const ChargeTree& tree, const KernelTable& green, const LayerList& list,
-                      const Rgb& perLength, const Vec3& receiver, DRgb& sum);
+                      const Rgb& perLength, std::span<const Vec3> receivers, std::span<DRgb> sums);
 /// The same in plain C++: the reference that the vector code is tested against.
 void accumulateLayersScalar(const ChargeTree& tree, const KernelTable& green, const LayerList& list,
-                            const Rgb& perLength, const Vec3& receiver, DRgb& sum);
+                            const Rgb& perLength, std::span<const Vec3> receivers,
+                            std::span<DRgb> sums);
 
 }  // namespace sss

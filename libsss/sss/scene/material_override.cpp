@@ -1,4 +1,4 @@
-#include "sss/scene/boundary_override.h"
+#include "sss/scene/material_override.h"
 
 #include "sss/base/error.h"
 #include "sss/base/near_name.h"
@@ -15,6 +15,21 @@ BoundaryModel boundaryModel(std::string_view name, const std::string& where) {
     if (name == kNames[1]) return BoundaryModel::Polynomial;
     throw Error(ErrorKind::Usage, where, fmt::format("there is no boundary {}", inQuotes(name)),
                 nameHint(name, kNames));
+}
+
+bool diffusionOnShape(std::string_view name, const std::string& where) {
+    constexpr std::array<std::string_view, 2> kNames{"profile", "shape"};
+    if (name == kNames[0]) return false;
+    if (name == kNames[1]) return true;
+    throw Error(ErrorKind::Usage, where,
+                fmt::format("there is no model of diffusion {}", inQuotes(name)),
+                nameHint(name, kNames));
+}
+
+void setDiffusion(Scene& scene, bool onShape) {
+    for (NamedMaterial& material : scene.materials)
+        if (auto* translucent = std::get_if<TranslucentMaterial>(&material.material))
+            translucent->onShape = onShape;
 }
 
 void setBoundary(Scene& scene, BoundaryModel boundary) {
