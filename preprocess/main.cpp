@@ -52,7 +52,7 @@ void applyOverrides(Scene& scene, const PreprocessOptions& options) {
     if (options.tolerance) scene.quality.tolerance = *options.tolerance;
     if (options.spacingMm) scene.quality.spacingMm = *options.spacingMm;
     if (options.seed) scene.quality.seed = *options.seed;
-    if (options.onShape) setDiffusion(scene, *options.onShape);
+    if (!options.model.empty()) setModel(scene, options.model, "--model");
     if (options.boundary) setBoundary(scene, *options.boundary);
 }
 

@@ -26,8 +26,9 @@ Quality
   --tolerance T           relative error of diffusion [the scene's, or 0.01]
   --spacing MM            distance between points [from tolerance and mean free path; mm]
   --seed N                of points and light samples [the scene's, or 0]
-  --model MODEL           diffusion by profile, or on the shape: solved on the body
-                          itself, closed bodies only [the scene's, or profile]
+  --model NAME            of all translucent materials: a profile (dipole,
+                          better_dipole, photon_beam, ...), or shape: diffusion
+                          solved on the body itself [the scene's, or dipole]
   --boundary KIND         exact, or polynomial: the papers' Fresnel fits, for all
                           translucent materials [the scene's, or exact]
   --max-points N          refuse, before allocating, an object with more [20000000]
@@ -79,7 +80,7 @@ std::optional<PreprocessOptions> readOptions(int argc, const char* const* argv) 
     CLI::App app;
     app.set_help_flag();
     bool help = false, version = false;
-    std::string boundary, model;
+    std::string boundary;
     app.add_flag("-h,--help", help);
     app.add_flag("--version", version);
     app.add_option("scene", o.scene);
@@ -91,7 +92,7 @@ std::optional<PreprocessOptions> readOptions(int argc, const char* const* argv) 
     app.add_option("--spacing", o.spacingMm);
     app.add_option("--tolerance", o.tolerance);
     app.add_option("--meters-per-unit", o.metersPerUnit);
-    app.add_option("--model", model);
+    app.add_option("--model", o.model);
     app.add_option("--boundary", boundary);
     app.add_option("--seed", o.seed)->check(CLI::NonNegativeNumber);
     app.add_option("--max-points", o.maxPoints)->check(CLI::NonNegativeNumber);
@@ -110,7 +111,6 @@ std::optional<PreprocessOptions> readOptions(int argc, const char* const* argv) 
             fmt::print("sss-preprocess {}\n", SSS_VERSION);
         return std::nullopt;
     }
-    if (!model.empty()) o.onShape = sss::diffusionOnShape(model, "--model");
     if (!boundary.empty()) o.boundary = sss::boundaryModel(boundary, "--boundary");
     check(o);
     return o;

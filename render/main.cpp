@@ -33,7 +33,7 @@ void applyOverrides(Scene& scene, const RenderOptions& options) {
     if (options.samples) scene.film.samples = *options.samples;
     if (options.width) scene.film.width = *options.width;
     if (options.height) scene.film.height = *options.height;
-    if (options.onShape) setDiffusion(scene, *options.onShape);
+    if (!options.profile.model.empty()) setModel(scene, options.profile.model, "--model");
     if (options.profile.boundary) setBoundary(scene, *options.profile.boundary);
 }
 

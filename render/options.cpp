@@ -38,8 +38,9 @@ Quality
   --seed N                of all random numbers [the scene's, or 0]
   --max-points N          without --cache: refuse an object with more [20000000]
 
-  --model MODEL           diffusion by profile, or on the shape: solved on the body
-                          itself, closed bodies only [the scene's, or profile]
+  --model NAME            of all translucent materials: a profile (dipole,
+                          better_dipole, photon_beam, ...), or shape: diffusion
+                          solved on the body itself [the scene's, or dipole]
   --boundary KIND         exact, or polynomial: the papers' Fresnel fits, for all
                           translucent materials [the scene's, or exact]
 
@@ -127,7 +128,6 @@ void checkMaterials(const RenderOptions& o, bool radiiGiven) {
     if (o.compare.json && !o.listMaterials && o.compare.files.empty())
         usage("--json", "belongs to --list-materials and --compare");
     if (!profile) {
-        if (!o.profile.model.empty()) usage("--model", "belongs to --profile");
         if (o.profile.csv) usage("--csv", "belongs to --profile");
         if (radiiGiven) usage("--radii", "belongs to --profile");
         if (o.profile.thicknessMm) usage("--thickness", "belongs to --profile");
@@ -190,7 +190,7 @@ std::optional<RenderOptions> readOptions(int argc, const char* const* argv) {
     CLI::App app;
     app.set_help_flag();
     bool help = false, version = false;
-    std::string size, radii, boundary, model;
+    std::string size, radii, boundary;
     app.add_flag("-h,--help", help);
     app.add_flag("--version", version);
     app.add_option("scene", o.scene);
@@ -205,7 +205,6 @@ std::optional<RenderOptions> readOptions(int argc, const char* const* argv) {
     app.add_option("--seed", o.seed)->check(CLI::NonNegativeNumber);
     app.add_option("--max-points", o.maxPoints)->check(CLI::NonNegativeNumber);
     app.add_option("--threads", o.threads)->check(CLI::NonNegativeNumber);
-    app.add_option("--model", model);
     app.add_option("--boundary", boundary);
     app.add_flag("--list-materials", o.listMaterials);
     app.add_flag("--json", o.compare.json);
@@ -235,7 +234,6 @@ std::optional<RenderOptions> readOptions(int argc, const char* const* argv) {
         return std::nullopt;
     }
     readSize(size, o);
-    if (!model.empty()) o.onShape = sss::diffusionOnShape(model, "--model");
     if (!boundary.empty()) o.profile.boundary = sss::boundaryModel(boundary, "--boundary");
     if (!radii.empty()) o.profile.radiiMm = readRadii(radii);
     checkMaterials(o, radiiOption->count() > 0);

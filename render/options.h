@@ -21,7 +21,6 @@ struct RenderOptions {
     std::uint64_t maxPoints = 20'000'000;
     unsigned threads = 0;  ///< 0 = all cores
     std::optional<std::string> integrator;
-    std::optional<bool> onShape;  ///< the model of diffusion
     CompareRequest compare;
     ProfileRequest profile;  ///< its boundary holds for the scene's materials, too
     bool listMaterials = false;

@@ -24,6 +24,8 @@ struct BodyOptics {
     /// Whether diffusion is solved on the body's shape: then it leaves out by itself, place by
     /// place, what is scattered once, and is not scaled.
     bool onShape = false;
+    /// Whether enough light goes straight through to be looked for (shapeCloud()).
+    bool seesThrough = false;
     /// By which it is scaled where it is seen at second hand and nobody looks for single
     /// scattering.
     Rgb indirectScale{1.0f};
@@ -39,6 +41,12 @@ struct BodyOptics {
     /// mm into the body beyond which nothing scatters singly that anyone would notice; 0 where no
     /// channel scatters.
     float singleReachMm = 0;
+
+    /// Sets seesThrough by the share of the entered light that leaves unscattered: not where that
+    /// is less than a tenth of the tolerance.
+    void lookThroughIf(double unscatteredShare, double tolerance) {
+        seesThrough = unscatteredShare > 0.1 * tolerance;
+    }
 
     std::array<const Profile*, 3> profilePointers() const {
         return {profiles[0].get(), profiles[1].get(), profiles[2].get()};

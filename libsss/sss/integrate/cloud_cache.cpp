@@ -10,6 +10,7 @@ namespace {
 
 constexpr std::string_view kPoints = "points", kIrradiance = "irrad", kOctree = "octree",
                            kShape = "shape", kMeta = "meta";
+constexpr const char* kUnscattered = "unscatteredShare";
 
 JsonValue list(const DRgb& v) {
     JsonValue array = JsonValue::array();
@@ -38,6 +39,7 @@ JsonValue describeBody(const World& world, int index, const BodyReport& report,
         .set("irradianceSamples", report.irradianceSamples)
         .set("irradianceNoise", report.irradianceNoise)
         .set("inputs", std::move(hashes));
+    if (report.shape) json.set(kUnscattered, maxComponent(report.shape->unscattered));
     return json;
 }
 
@@ -120,6 +122,11 @@ CloudCache::CloudCache(const std::filesystem::path& path, const World& world,
         const JsonValue& spacing = member(bodies[b], "spacingMm", where);
         spacingMm_.push_back(spacing.isNumber() ? spacing.asNumber() : 0.0);
         wantsShape_.push_back(optics[b]->onShape);
+        if (optics[b]->onShape) {
+            const JsonValue& share = member(bodies[b], kUnscattered, where);
+            optics[b]->lookThroughIf(share.isNumber() ? share.asNumber() : 1.0,
+                                     world.scene().quality.tolerance);
+        }
         checkNodes(b);
     }
     fingerprint_ = all.finish().hex();

@@ -4,6 +4,7 @@
 #include "sss/base/inline_vector.h"
 #include "sss/integrate/arriving_light.h"
 #include "sss/integrate/first_hit.h"
+#include "sss/integrate/look_through.h"
 #include "sss/integrate/single_scatter.h"
 
 #include <algorithm>
@@ -124,6 +125,16 @@ Rgb PathTracer::singleScatteringAt(const SurfaceHit& hit, const Vec3& wo, const 
     return radiance;
 }
 
+Rgb PathTracer::behind(const SurfaceHit& hit, const Vec3& wo, Sampler& sampler,
+                       PathCounts& counts) const {
+    Sampler side = sampler.branch();
+    const auto seen = lookThrough(world_, *optics_[static_cast<std::size_t>(hit.body)], hit, wo,
+                                  side, counts.rays);
+    if (!seen) return Rgb(0);
+    const int bounces = std::max(1, world_.scene().quality.bounces);
+    return seen->weight * incoming(seen->beyond, {}, bounces, side, counts);
+}
+
 bool PathTracer::scatter(const SurfaceHit& hit, const Bsdf& bsdf, Sampler& sampler, Ray& ray,
                          ScatterOrigin& origin, Rgb& throughput) const {
     const Bsdf::Sample next = bsdf.sample(sampler.next2D());
@@ -198,6 +209,7 @@ void PathTracer::shade(const FirstSurface& surface, const Ray& ray, Sampler& sam
             seen.single =
                 singleScatteringAt(hit, -ray.direction, bsdf.shadingNormal(), sampler, counts) /
                 optics.singleProbability;
+        if (optics.seesThrough) reflected += behind(hit, -ray.direction, sampler, counts);
     }
     Ray next;
     ScatterOrigin origin;

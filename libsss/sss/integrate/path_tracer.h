@@ -74,6 +74,8 @@ public:
 private:
     Rgb diffusion(const SurfaceHit& hit, const Bsdf& bsdf, Sampler& sampler,
                   PathCounts& counts) const;
+    /// What is seen through a body.
+    Rgb behind(const SurfaceHit& hit, const Vec3& wo, Sampler& sampler, PathCounts& counts) const;
     /// The same through surfaces.
     Rgb followed(Ray ray, ScatterOrigin origin, int bounces, Sampler& sampler,
                  PathCounts& counts) const;

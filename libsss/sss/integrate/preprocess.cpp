@@ -102,7 +102,7 @@ BodyCloud buildCloud(const SurfaceSamples& samples, std::vector<Rgb> irradiance,
 void shapeCloud(const World& world, int body, const SurfaceSamples& samples,
                 const EnteredBeams& beams, std::span<const std::unique_ptr<BodyOptics>> optics,
                 BodyCloud& cloud, Reporter& reporter, BodyReport& report) {
-    const BodyOptics& own = *optics[static_cast<std::size_t>(body)];
+    BodyOptics& own = *optics[static_cast<std::size_t>(body)];
     std::vector<Rgb> once;
     if (own.material.singleScattering) {
         const PathTracer tracer(world, optics, nullptr);
@@ -112,6 +112,7 @@ void shapeCloud(const World& world, int body, const SurfaceSamples& samples,
     }
     ShapeExitance shape = solveShape(world, body, own, cloud, beams, once);
     cloud.correction = std::move(shape.correction);
+    own.lookThroughIf(maxComponent(shape.unscattered), world.scene().quality.tolerance);
     const GmresReport& solve = shape.report.solve;
     const auto percent = [](const DRgb& v) {
         return fmt::format("{:.3g} {:.3g} {:.3g} %", 100 * v.x, 100 * v.y, 100 * v.z);
