@@ -20,10 +20,12 @@ struct MadeClouds {
                 clouds.emplace_back();
                 continue;
             }
-            SurfaceSamples samples =
+            const SurfaceSamples samples =
                 placePoints(world, b, *optics[static_cast<std::size_t>(b)], {}, silent, report);
-            std::vector<Rgb> irradiance = lightPoints(world, b, samples, optics, silent, report);
-            clouds.push_back(buildCloud(std::move(samples), std::move(irradiance), report));
+            IrradianceResult light = lightPoints(world, b, samples, optics, silent, report);
+            clouds.push_back(buildCloud(samples, std::move(light.irradiance), report));
+            if (optics[static_cast<std::size_t>(b)]->onShape)
+                shapeCloud(world, b, samples, light.beams, optics, clouds.back(), silent, report);
         }
     }
 };
