@@ -130,8 +130,8 @@ void damagedExitance(const TemporaryFolder& folder, const Passes& passes, Report
 
 void stressCaches(Report& report, Scope /*scope*/) {
     const TemporaryFolder folder;
-    testing::SceneMaker maker = ballScene(5, toMedium(*findMeasuredMedium("Marble")));
-    maker.scene.objects[0].shape = BoxShape{DVec3(4)};
+    testing::SceneMaker maker =
+        bodyScene(BoxShape{DVec3(4)}, toMedium(*findMeasuredMedium("Marble")));
     maker.scene.quality.spacingMm = 2;
     const Passes passes(maker.scene);
     writeCloudCache(folder / "good.ssc", passes.world(), passes.clouds(), passes.reports(),

@@ -35,12 +35,16 @@ public:
                                                        world_.scene().quality.tolerance));
         return made;
     }
-    /// Exitance in the middle of every `step`th face of the first body.
-    std::vector<Rgb> exitance(std::size_t step) const {
+    /// Exitance at `count` places of the first body, spread over its faces.
+    std::vector<Rgb> exitance(std::size_t count) const {
         const auto made = fields();
+        const std::size_t faces = world_.bodies()[0].mesh.faceCount();
         std::vector<Rgb> values;
-        for (std::size_t f = 0; f < world_.bodies()[0].mesh.faceCount(); f += step)
-            values.push_back(made[0]->exitance(static_cast<FaceIndex>(f), Vec2(1.0f / 3)));
+        for (std::size_t i = 0; i < count; ++i) {
+            const auto face = static_cast<FaceIndex>(i * faces / count);
+            const float u = 0.1f + 0.1f * static_cast<float>(i % 5);
+            values.push_back(made[0]->exitance(face, Vec2(u, 0.6f - u)));
+        }
         return values;
     }
 
@@ -52,14 +56,14 @@ private:
     std::vector<BodyReport> reports_;
 };
 
-/// A ball of marble or another medium, lit from one side; few points.
-inline testing::SceneMaker ballScene(double radiusMm, const Medium& medium) {
+/// One body lit from one side, with few points and samples.
+inline testing::SceneMaker bodyScene(Shape shape, const Medium& medium) {
     testing::SceneMaker maker;
     TranslucentMaterial material;
     material.medium = medium;
-    maker.object(SphereShape{radiusMm}, maker.material(material));
+    maker.object(std::move(shape), maker.material(material));
     maker.light(DirectionalLight{{0, -1, -1}, Rgb(1)});
-    maker.scene.camera.position = {0, 0, 10 * radiusMm};
+    maker.scene.camera.position = {0, 0, 1e8};
     maker.scene.quality.tolerance = 0.1;
     maker.scene.quality.irradianceSamples = 4;
     maker.scene.quality.bounces = 0;
