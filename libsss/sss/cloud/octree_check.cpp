@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <cstdint>
 
 namespace sss {
@@ -11,22 +12,30 @@ namespace {
 
 constexpr std::size_t kGrain = 1 << 14;
 
+// mm. Squares of distances between places within this stay finite in single precision: what the sum
+// looks up by them stays in its table.
+constexpr float kFarthest = 1e18f;
+
 // 0 for finite numbers, NaN for others: no branch in the loops below.
 float excess(float value) { return value * 0.0f; }
 float excess(const Vec3& v) { return v.x * 0.0f + v.y * 0.0f + v.z * 0.0f; }
 
 bool isLight(const Rgb& v) { return excess(v) == 0.0f && v.x >= 0 && v.y >= 0 && v.z >= 0; }
 
+bool isNear(const Vec3& p) {
+    return std::abs(p.x) <= kFarthest && std::abs(p.y) <= kFarthest && std::abs(p.z) <= kFarthest;
+}
+
 bool isSound(const SurfacePoint& p) {
-    return excess(p.position) + excess(p.areaMm2) == 0.0f && p.areaMm2 >= 0;
+    return isNear(p.position) && excess(p.areaMm2) == 0.0f && p.areaMm2 >= 0;
 }
 
 bool isSound(const OctreeNode& node) {
-    float sum = excess(node.centroid) + excess(node.lo) + excess(node.hi) + excess(node.areaMm2) +
-                excess(node.chromaticOffset) + excess(node.chromaticMoment) +
+    float sum = excess(node.areaMm2) + excess(node.chromaticOffset) + excess(node.chromaticMoment) +
                 excess(node.cubicMean);
     for (const float moment : node.moments) sum += excess(moment);
-    return sum == 0.0f && node.areaMm2 >= 0 && isLight(node.flux);
+    return sum == 0.0f && node.areaMm2 >= 0 && isLight(node.flux) && isNear(node.centroid) &&
+           isNear(node.lo) && isNear(node.hi);
 }
 
 template <typename Test>

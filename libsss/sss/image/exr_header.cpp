@@ -17,6 +17,23 @@ namespace {
 constexpr std::uint32_t kMultiPart = 0x1000;  // bit of the version field
 constexpr std::size_t kLongestName = 255;
 
+/// Attributes whose size is their type's. OpenEXR takes that many bytes whatever the file states,
+/// so that it would read all that follows from another place than we do.
+struct TypeSize {
+    std::string_view type;
+    std::uint32_t bytes;
+};
+constexpr TypeSize kTypeSizes[] = {
+    {"box2i", 16},      {"box2f", 16},   {"chromaticities", 32},
+    {"compression", 1}, {"double", 8},   {"envmap", 1},
+    {"float", 4},       {"int", 4},      {"keycode", 28},
+    {"lineOrder", 1},   {"m33f", 36},    {"m33d", 72},
+    {"m44f", 64},       {"m44d", 128},   {"rational", 8},
+    {"timecode", 8},    {"tiledesc", 9}, {"v2i", 8},
+    {"v2f", 8},         {"v2d", 16},     {"v3i", 12},
+    {"v3f", 12},        {"v3d", 24},     {"deepImageState", 1},
+};
+
 /// "OpenEXR File Layout", sections "Header" and "Attribute Layout".
 class HeaderWalk {
 public:
@@ -75,21 +92,32 @@ private:
     bool oneHeader(ExrHeader& header) {
         bool any = false;
         for (std::string name = text(); !name.empty(); name = text(), any = true) {
-            text();  // the type's name
-            const std::uint32_t size = number();
-            if (size > left_)
-                refuse(
-                    fmt::format("is damaged or truncated: its attribute \"{}\" states {} bytes, "
-                                "{} follow",
-                                name, size, left_));
-            if (name == "dataWindow" && size == 16)
-                dataWindow(header);
-            else if (name == "channels")
-                channels(header, size);
-            else
-                skip(size);
+            attribute(header, name);
         }
         return any;
+    }
+    void attribute(ExrHeader& header, const std::string& name) {
+        const std::string type = text();
+        const std::uint32_t size = number();
+        if (size > left_)
+            refuse(
+                fmt::format("is damaged or truncated: its attribute \"{}\" states {} bytes, {} "
+                            "follow",
+                            name, size, left_));
+        for (const TypeSize& known : kTypeSizes)
+            if (type == known.type && size != known.bytes)
+                refuse(fmt::format("is damaged: its attribute \"{}\" of type {} states {} bytes",
+                                   name, type, size));
+        if (name == "dataWindow" && type == "box2i")
+            dataWindow(header);
+        else if (type == "chlist")
+            channels(header, size);
+        else if (type == "preview")
+            preview(size);
+        else if (type == "stringvector")
+            texts(size);
+        else
+            skip(size);
     }
     void dataWindow(ExrHeader& header) {
         std::array<std::int32_t, 4> box{};
@@ -103,15 +131,27 @@ private:
         header.height = static_cast<int>(height);
         hasWindow_ = true;
     }
-    // Each a name, 16 bytes; then a zero.
+    // Each a name and 16 bytes; then a zero.
     void channels(ExrHeader& header, std::uint32_t size) {
         const std::uintmax_t end = left_ - size;
-        while (left_ > end && !text().empty()) {
+        while (!text().empty()) {
             skip(16);
             ++header.channels;
         }
-        if (left_ < end) refuse("is damaged in its list of channels");
-        skip(left_ - end);
+        if (left_ != end) refuse("is damaged in its list of channels");
+    }
+    // A small picture of 8-bit RGBA.
+    void preview(std::uint32_t size) {
+        if (size < 8) refuse("is damaged in its preview");
+        const std::uint64_t width = number(), height = number();
+        if (width > size || height > size || 8 + 4 * width * height != size)
+            refuse("is damaged in its preview");
+        skip(size - 8);
+    }
+    void texts(std::uint32_t size) {
+        const std::uintmax_t end = left_ - size;
+        while (left_ > end) skip(number());
+        if (left_ != end) refuse("is damaged in a list of texts");
     }
     void skip(std::uintmax_t bytes) {
         if (bytes > left_) refuse("is truncated in its header");
