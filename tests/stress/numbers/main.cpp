@@ -20,9 +20,9 @@ struct Subject {
     void (*run)(Report&, Scope);
 };
 constexpr Subject kSubjects[] = {
-    {"optics", stressOptics}, {"media", stressMedia},   {"surfaces", stressSurfaces},
-    {"sums", stressSums},     {"scenes", stressScenes}, {"caches", stressCaches},
-    {"corpus", stressCorpus},
+    {"optics", stressOptics},      {"media", stressMedia},   {"surfaces", stressSurfaces},
+    {"sums", stressSums},          {"scenes", stressScenes}, {"caches", stressCaches},
+    {"memory", stressAllocations}, {"corpus", stressCorpus},
 };
 
 struct Options {
