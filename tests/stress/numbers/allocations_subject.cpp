@@ -41,7 +41,10 @@ void operator delete(void* memory, std::size_t, std::align_val_t) noexcept { std
 namespace sss::stress {
 namespace {
 
-enum class Outcome { Written, OutOfMemory, Other };
+struct Outcome {
+    bool isWritten = false, isOutOfMemory = false;
+    std::string words;
+};
 
 // Pass 1 and its cache, the `nth` allocation of which fails.
 Outcome passOne(const Scene& scene, const std::filesystem::path& cache, std::int64_t nth) {
@@ -51,13 +54,13 @@ Outcome passOne(const Scene& scene, const std::filesystem::path& cache, std::int
         const Passes passes(scene);
         writeCloudCache(cache, passes.world(), passes.clouds(), passes.reports(), passes.optics());
         stop();
-        return Outcome::Written;
+        return {.isWritten = true, .words = "written"};
     } catch (const std::bad_alloc&) {
         stop();
-        return Outcome::OutOfMemory;
+        return {.isOutOfMemory = true, .words = "bad_alloc"};
     } catch (const Error& error) {
         stop();
-        return error.kind() == ErrorKind::Resource ? Outcome::OutOfMemory : Outcome::Other;
+        return {.isOutOfMemory = error.kind() == ErrorKind::Resource, .words = error.what()};
     }
 }
 
@@ -89,13 +92,13 @@ void stressAllocations(Report& report, Scope scope) {
                                               : all * i / tries;
         const Outcome outcome = passOne(maker.scene, folder / "old.ssc", nth);
         const bool isKept = testing::readFile(folder / "old.ssc") == "old";
-        const auto where = [&] { return fmt::format("allocation {} of {}", nth, all); };
+        const auto where = [&] {
+            return fmt::format("allocation {} of {}: {}", nth, all, outcome.words);
+        };
         // Threads share the count, so that the last ones may not come up.
-        row.expect(
-            outcome == Outcome::Written ? !isKept : outcome == Outcome::OutOfMemory && isKept,
-            where);
+        row.expect(outcome.isWritten ? !isKept : outcome.isOutOfMemory && isKept, where);
         row.expect(folder.fileCount() == 2, where);
-        if (outcome == Outcome::Written) testing::writeFile(folder / "old.ssc", "old");
+        if (outcome.isWritten) testing::writeFile(folder / "old.ssc", "old");
     }
     report.add(row);
 }
