@@ -1,6 +1,7 @@
 #include "sss/integrate/cloud_cache.h"
 
 #include "sss/base/error.h"
+#include "sss/cloud/octree_check.h"
 #include "sss/integrate/scene_fingerprint.h"
 
 #include <fmt/core.h>
@@ -135,18 +136,11 @@ CloudCache::CloudCache(const std::filesystem::path& path, const World& world,
 // The checksums hold; this keeps a file that some other program wrote from sending us out of
 // bounds.
 void CloudCache::checkNodes(std::uint32_t body) const {
-    const auto points = file_.section<SurfacePoint>(kPoints, body);
-    const auto irradiance = file_.section<Rgb>(kIrradiance, body);
-    const auto nodes = file_.section<OctreeNode>(kOctree, body);
-    bool sound = irradiance.size() == points.size() && (points.empty() == nodes.empty());
-    if (file_.find(kShape, body))
-        sound = sound && file_.section<Rgb>(kShape, body).size() == points.size();
-    for (std::size_t n = 0; n < nodes.size() && sound; ++n) {
-        const std::uint64_t end = std::uint64_t{nodes[n].first} + nodes[n].size();
-        sound =
-            nodes[n].isLeaf() ? end <= points.size() : nodes[n].first > n && end <= nodes.size();
-    }
-    if (!sound)
+    const CloudView cloud{file_.section<SurfacePoint>(kPoints, body),
+                          file_.section<Rgb>(kIrradiance, body)};
+    const bool shapeFits =
+        !file_.find(kShape, body) || file_.section<Rgb>(kShape, body).size() == cloud.points.size();
+    if (!shapeFits || !isSound(cloud, file_.section<OctreeNode>(kOctree, body)))
         throw Error(ErrorKind::BadInput, file_.path().string(),
                     fmt::format("the octree of body {} does not fit its points", body),
                     "run sss-preprocess again");

@@ -58,6 +58,15 @@ SurfaceSamples placePoints(const World& world, int bodyIndex, const BodyOptics& 
                                 expected, options.spacingMm, limits.mostPoints),
                     "check the scale of the scene (metersPerUnit), raise the tolerance, set "
                     "--spacing, or raise --max-points");
+    if (expected > limits.mostBytes / kBytesPerPoint)
+        throw Error(ErrorKind::Resource, body.name,
+                    fmt::format("would need {} points at a spacing of {:.4g} mm and {:.3g} GB of "
+                                "memory for them; there are {:.3g} GB",
+                                expected, options.spacingMm,
+                                1e-9 * static_cast<double>(expected * kBytesPerPoint),
+                                1e-9 * static_cast<double>(limits.mostBytes)),
+                    "check the scale of the scene (metersPerUnit), raise the tolerance, or set "
+                    "--spacing");
     SurfaceSamples samples = sampleSurface(body.mesh, options);
     report.points = samples.size();
     report.spacingMm = std::sqrt(report.areaMm2 / static_cast<double>(samples.size()));

@@ -1,4 +1,5 @@
 #pragma once
+#include "sss/base/memory.h"
 #include "sss/base/reporter.h"
 #include "sss/cloud/surface_sampler.h"
 #include "sss/integrate/body_cloud.h"
@@ -17,8 +18,14 @@ namespace sss {
 /// Optics of all bodies of a world, in their order.
 std::vector<std::unique_ptr<BodyOptics>> makeBodyOptics(const World& world);
 
+/// What pass 1 takes for a point at its peak, while it places them (tests/bench/README.md: 5.2 GB
+/// for 10^7).
+inline constexpr std::uint64_t kBytesPerPoint = 520;
+
 struct PreprocessLimits {
-    std::size_t mostPoints = 20'000'000;  ///< per body; refused before any memory is taken
+    // Per body; what is over is refused before any memory is taken for it.
+    std::size_t mostPoints = 20'000'000;
+    std::uint64_t mostBytes = memoryLimitBytes();  ///< by kBytesPerPoint
 };
 
 /// What pass 1 did for one body.

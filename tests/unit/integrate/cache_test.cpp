@@ -229,6 +229,12 @@ TEST(CloudCache, OctreeThatDoesNotFitIsRefused) {
         [](Nodes& n) { n.back().first = 0x7fffffffu; },
         [](Nodes& n) { n.back().count = 0xffffffffu; },
         [](Nodes& n) { n.clear(); },
+        [](Nodes& n) { n[1].first = n[0].first; },  // the same children twice
+        [](Nodes& n) { n.back().count -= 1; },      // a point that nobody has
+        [](Nodes& n) { n[3].centroid.y = NAN; },
+        [](Nodes& n) { n[3].hi.x = INFINITY; },
+        [](Nodes& n) { n[3].lo.y = 1e30f; },  // its distance squared would be infinite
+        [](Nodes& n) { n[3].flux.z = -1; },
     };
     for (const auto& damage : damages) {
         const auto stored = good.section<OctreeNode>("octree", 0);
