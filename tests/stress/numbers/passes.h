@@ -16,9 +16,13 @@ public:
         for (int b = 0; b < static_cast<int>(world_.bodies().size()); ++b) {
             const auto index = static_cast<std::size_t>(b);
             BodyReport& report = reports_.emplace_back();
-            SurfaceSamples samples = placePoints(world_, b, *optics_[index], {}, silent_, report);
-            std::vector<Rgb> light = lightPoints(world_, b, samples, optics_, silent_, report);
-            clouds_.push_back(buildCloud(std::move(samples), std::move(light), report));
+            const SurfaceSamples samples =
+                placePoints(world_, b, *optics_[index], {}, silent_, report);
+            IrradianceResult light = lightPoints(world_, b, samples, optics_, silent_, report);
+            BodyCloud& cloud =
+                clouds_.emplace_back(buildCloud(samples, std::move(light.irradiance), report));
+            if (optics_[index]->onShape)
+                shapeCloud(world_, b, samples, light.beams, optics_, cloud, silent_, report);
         }
     }
     const World& world() const { return world_; }
