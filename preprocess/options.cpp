@@ -26,11 +26,11 @@ Quality
   --tolerance T           relative error of diffusion [the scene's, or 0.01]
   --spacing MM            distance between points [from tolerance and mean free path; mm]
   --seed N                of points and light samples [the scene's, or 0]
-  --model NAME            of all translucent materials: a profile (dipole,
-                          better_dipole, photon_beam, ...), or shape: diffusion
-                          solved on the body itself [the scene's, or dipole]
-  --boundary KIND         exact, or polynomial: the papers' Fresnel fits, for all
-                          translucent materials [the scene's, or exact]
+  --model NAME            of all translucent materials: a profile (dipole, better_dipole,
+                          photon_beam, ...), or shape: diffusion solved on the object itself
+                          [the scene's, or dipole]
+  --boundary KIND         exact, or polynomial: the papers' Fresnel fits, for all translucent
+                          materials [the scene's, or exact]
   --max-points N          refuse, before allocating, an object with more [20000000]
 
 Output

@@ -37,12 +37,11 @@ Quality
   --tolerance T           relative error of diffusion [the scene's, or 0.01]
   --seed N                of all random numbers [the scene's, or 0]
   --max-points N          without --cache: refuse an object with more [20000000]
-
-  --model NAME            of all translucent materials: a profile (dipole,
-                          better_dipole, photon_beam, ...), or shape: diffusion
-                          solved on the body itself [the scene's, or dipole]
-  --boundary KIND         exact, or polynomial: the papers' Fresnel fits, for all
-                          translucent materials [the scene's, or exact]
+  --model NAME            of all translucent materials: a profile (dipole, better_dipole,
+                          photon_beam, ...), or shape: diffusion solved on the object itself
+                          [the scene's, or dipole]
+  --boundary KIND         exact, or polynomial: the papers' Fresnel fits, for all translucent
+                          materials [the scene's, or exact]
 
 Materials (these print to standard output and need no scene)
   --list-materials        all measured media, with paper and warnings

@@ -279,7 +279,7 @@ class Materials(ProfileTest):
                 self.assertIn(warning, out)
 
 
-class Boundary(ProfileTest):
+class Overrides(ProfileTest):
     def test_the_override_is_an_input_of_the_cache(self):
         scene = self.write_scene()
         self.assert_ok(self.preprocess(scene, "-o", "papers.ssc", "--boundary", "polynomial"))
@@ -287,6 +287,32 @@ class Boundary(ProfileTest):
                                    "polynomial"))
         self.assert_refused(BAD_INPUT, "papers.ssc.*medium", self.render, scene, "--cache",
                             "papers.ssc", "-o", "other.exr")
+
+    def test_the_model_of_a_whole_scene(self):
+        scene = self.write_scene()
+        for model, solves in (("shape", True), ("dipole", False)):
+            self.assert_ok(self.preprocess(scene, "-o", f"{model}.ssc", "--model", model, "--stats",
+                                           "stats.json"))
+            body = json.loads((self.folder / "stats.json").read_text())["values"]["bodies"][0]
+            self.assertEqual("shape" in body, solves, body)
+            # Points and light of a cache for the shape serve its profile too.
+            self.assert_ok(self.render(scene, "--cache", f"{model}.ssc", "-o",
+                                       f"dipole-from-{model}.exr", "--model", "dipole"))
+        self.assert_ok(self.render(scene, "--cache", "shape.ssc", "-o", "shape.exr", "--model",
+                                   "shape"))
+        for model in ("shape", "better_dipole"):
+            self.assert_refused(BAD_INPUT, "dipole.ssc.*run sss-preprocess", self.render, scene,
+                                "--cache", "dipole.ssc", "-o", "other.exr", "--model", model)
+
+        def picture(name):
+            return (self.folder / f"{name}.exr").read_bytes()
+        self.assertNotEqual(picture("shape"), picture("dipole-from-dipole"))
+        self.assertEqual(picture("dipole-from-shape"), picture("dipole-from-dipole"))
+        for program in (self.render, self.preprocess):
+            self.assert_refused(USAGE, "dipol.*\"dipole\"", program, scene, "-o", "x",
+                                "--model", "dipol")
+            self.assert_refused(USAGE, "multipole", program, scene, "-o", "x",
+                                "--model", "multipole")
 
 
 if __name__ == "__main__":
