@@ -19,29 +19,39 @@ std::vector<std::unique_ptr<BodyOptics>> makeBodyOptics(const World& world) {
 double pointSpacingMm(const World& world, const Body& body, const BodyOptics& optics) {
     const QualitySettings& quality = world.scene().quality;
     if (quality.spacingMm > 0) return quality.spacingMm;
+    const double finest =
+        world.scene().materials[static_cast<std::size_t>(body.material)].spacingMm;
+    if (finest > 0) return finest;
     const double spacing = spacingFor(optics, quality.tolerance).spacingMm;
     return std::isfinite(spacing) ? spacing : body.mesh.bounds().diagonal();
 }
 
+void describePoints(const Body& body, const BodyOptics& optics, std::size_t points,
+                    BodyReport& report) {
+    report.name = body.name;
+    report.areaMm2 = body.mesh.area();
+    report.points = points;
+    report.spacingMm = std::sqrt(report.areaMm2 / static_cast<double>(points));
+    report.expectedQuadratureError = expectedQuadratureError(optics, report.spacingMm);
+}
+
 SurfaceSamples placePoints(const World& world, int bodyIndex, const BodyOptics& optics,
-                           const PreprocessLimits& limits, Reporter& reporter, BodyReport& report) {
+                           const PreprocessLimits& limits, Reporter& reporter, BodyReport& report,
+                           const TriangleMesh* placedOn) {
     const Body& body = world.bodies()[static_cast<std::size_t>(bodyIndex)];
+    const TriangleMesh& mesh = placedOn != nullptr ? *placedOn : body.mesh;
     SamplerOptions options;
     options.spacingMm = pointSpacingMm(world, body, optics);
     options.seed = world.scene().quality.seed;
-    report.name = body.name;
-    report.areaMm2 = body.mesh.area();
-    const std::size_t expected = expectedPointCount(report.areaMm2, options);
+    const std::size_t expected = expectedPointCount(mesh.area(), options);
     if (expected > limits.mostPoints)
         throw Error(ErrorKind::Resource, body.name,
                     fmt::format("would need {} points at a spacing of {:.4g} mm; the limit is {}",
                                 expected, options.spacingMm, limits.mostPoints),
                     "check the scale of the scene (metersPerUnit), raise the tolerance, set "
                     "--spacing, or raise --max-points");
-    SurfaceSamples samples = sampleSurface(body.mesh, options);
-    report.points = samples.size();
-    report.spacingMm = std::sqrt(report.areaMm2 / static_cast<double>(samples.size()));
-    report.expectedQuadratureError = expectedQuadratureError(optics, report.spacingMm);
+    SurfaceSamples samples = sampleSurface(mesh, options);
+    describePoints(body, optics, samples.size(), report);
     reporter.info("points", fmt::format("{}: {} points, spacing {:.4g} mm, expected error {:.2g} %",
                                         body.name, report.points, report.spacingMm,
                                         100 * report.expectedQuadratureError));
@@ -67,8 +77,27 @@ std::vector<Rgb> lightPoints(const World& world, int body, const SurfaceSamples&
     return std::move(light.irradiance);
 }
 
+namespace {
+
+template <typename T>
+std::vector<T> inOrder(const std::vector<T>& items, std::span<const std::uint32_t> order) {
+    std::vector<T> sorted;
+    sorted.reserve(items.size());
+    for (const std::uint32_t i : order) sorted.push_back(items[i]);
+    return sorted;
+}
+
+}  // namespace
+
 BodyCloud buildCloud(SurfaceSamples samples, std::vector<Rgb> irradiance, BodyReport& report) {
     BodyCloud cloud;
+    if (!samples.inMortonOrder) {
+        std::vector<Vec3> positions;
+        for (const SurfacePoint& point : samples.points) positions.push_back(point.position);
+        const std::vector<std::uint32_t> order = mortonOrder(positions);
+        samples.points = inOrder(samples.points, order);
+        irradiance = inOrder(irradiance, order);
+    }
     cloud.points = std::move(samples.points);
     cloud.irradiance = std::move(irradiance);
     cloud.spacingMm = report.spacingMm;

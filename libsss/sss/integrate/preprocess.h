@@ -35,9 +35,15 @@ double pointSpacingMm(const World& world, const Body& body, const BodyOptics& op
 
 // Pass 1 of one body, in its three steps. Each fills its part of the report.
 
-/// Throws Error{Resource} over the limit.
+/// Throws Error{Resource} over the limit. `placedOn`, if given, has the faces of the body's mesh in
+/// another shape: there the points are placed, and carried to the body.
 SurfaceSamples placePoints(const World& world, int body, const BodyOptics& optics,
-                           const PreprocessLimits& limits, Reporter& reporter, BodyReport& report);
+                           const PreprocessLimits& limits, Reporter& reporter, BodyReport& report,
+                           const TriangleMesh* placedOn = nullptr);
+/// The part of the report that speaks of points, for those that were placed before.
+void describePoints(const Body& body, const BodyOptics& optics, std::size_t points,
+                    BodyReport& report);
+/// In the space of World::inLightSpace(), so that the same light gives the same bytes.
 std::vector<Rgb> lightPoints(const World& world, int body, const SurfaceSamples& samples,
                              std::span<const std::unique_ptr<BodyOptics>> optics,
                              Reporter& reporter, BodyReport& report);

@@ -67,6 +67,7 @@ using Material =
 struct NamedMaterial {
     std::string name;
     Material material;
+    double spacingMm = 0;  ///< of points on bodies of it; 0 = from tolerance and mean free path
 };
 
 struct MeshFileShape {

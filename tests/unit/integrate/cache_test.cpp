@@ -30,7 +30,7 @@ SceneMaker smallScene() {
     return maker;
 }
 
-std::vector<InputFingerprint> inputsOf(const Scene& scene) {
+BodyInputs inputsOf(const Scene& scene) {
     SilentReporter silent;
     const World world(scene, silent);
     const auto optics = makeBodyOptics(world);
@@ -98,13 +98,16 @@ TEST(SceneFingerprint, NamesExactlyWhatChanged) {
         {"film", [](Scene& s) { s.film.samples = 7, s.film.width = 99; }, {}},
         {"roughness of the boundary",
          [](Scene& s) { std::get<TranslucentMaterial>(s.materials[0].material).roughness = 0.4; },
-         {}},
+         {"medium"}},
+        {"eta",
+         [](Scene& s) { std::get<TranslucentMaterial>(s.materials[0].material).medium.eta = 1.4; },
+         {"medium"}},
         {"names", [](Scene& s) { s.objects[0].name = "ball", s.materials[0].name = "stone"; }, {}},
         {"light",
          [](Scene& s) { std::get<DirectionalLight>(s.lights[0]).irradiance.y = 3; },
          {"lights"}},
         {"another light", [](Scene& s) { s.lights.emplace_back(PointLight{}); }, {"lights"}},
-        {"mesh", [](Scene& s) { s.objects[0].shape = BoxShape{DVec3(5.01)}; }, {"mesh"}},
+        {"mesh", [](Scene& s) { s.objects[0].shape = BoxShape{DVec3(5.01)}; }, {"mesh", "shape"}},
         {"medium",
          [](Scene& s) {
              std::get<TranslucentMaterial>(s.materials[0].material).medium.sigmaA.z = 1;
@@ -126,7 +129,7 @@ TEST(SceneFingerprint, NamesExactlyWhatChanged) {
          [](Scene& s) {
              s.objects[0].transform = {testing::turned(5, {0, 1, 0})};
          },
-         {"surroundings"}},
+         {"lights", "surroundings"}},
         {"a new neighbour",
          [](Scene& s) {
              s.objects.push_back(s.objects[1]);
@@ -162,7 +165,11 @@ struct Written {
           world(maker.world()),
           optics(makeBodyOptics(world)),
           made(world, optics) {
-        writeCloudCache(path, world, made.clouds, made.reports, optics);
+        const std::vector<BodyInputs> inputs = worldInputs(world, optics);
+        std::vector<CachedBody> cached;
+        for (std::size_t b = 0; b < inputs.size(); ++b)
+            cached.push_back({made.clouds[b].view(), &made.reports[b], &inputs[b]});
+        writeCloudCache(path, world, cached);
     }
 };
 

@@ -2,6 +2,7 @@
 #include "sss/integrate/exitance_cache.h"
 
 #include "sss/cloud/exitance_store.h"
+#include "sss/integrate/cloud_cache.h"
 #include "support/temporary_folder.h"
 #include "unit/integrate/pass_maker.h"
 
@@ -49,7 +50,8 @@ struct Frame {
         : world(scene, silent),
           optics(makeBodyOptics(world)),
           made(world, optics),
-          cache(file, world, optics) {
+          cache(exitanceFileOf(file),
+                {exitanceFingerprint(world, 0, worldInputs(world, optics)[0])}) {
         fields.push_back(std::make_unique<BodyField>(
             world.bodies()[0], *optics[0], made.clouds[0].view(), scene.quality.tolerance));
     }
