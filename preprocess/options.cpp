@@ -71,7 +71,7 @@ void check(const PreprocessOptions& o) {
     if (!o.info.empty()) return;
     if (o.json && !o.printEstimate) usage("--json", "goes with --info and --print-estimate");
     if (o.scene.empty()) usage("SCENE", "no scene file given");
-    if (o.frames.size() > 1 && !o.printEstimate && !sss::isStageFolder(o.cache) &&
+    if (o.frames.size() > 1 && !o.printEstimate && !sss::isFolderName(o.cache) &&
         !sss::hasFrameField(o.cache.string()))
         usage("--output", fmt::format("{} would hold the last of {} frames only: give the number a "
                                       "place (####), or name a folder (DIR/)",

@@ -158,7 +158,7 @@ public:
           scenes_(
               options.scene, options.metersPerUnit,
               [&](Scene& scene) { applyOverrides(scene, options); }, reporter),
-          isFolder_(!options.cache.empty() && isStageFolder(options.cache)),
+          isFolder_(isStageFolder(options.cache)),
           chain_({isFolder_ ? options.cache : std::filesystem::path(),
                   {options.maxPoints},
                   options.cacheOnly,

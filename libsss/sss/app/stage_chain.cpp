@@ -32,9 +32,13 @@ BodyInputs storedInputs(const JsonValue& meta, const BodyInputs& like, const std
 
 }  // namespace
 
+bool isFolderName(const std::filesystem::path& cache) {
+    return !cache.empty() && !cache.has_filename();
+}
+
 bool isStageFolder(const std::filesystem::path& cache) {
     std::error_code ignored;
-    return !cache.has_filename() || std::filesystem::is_directory(cache, ignored);
+    return isFolderName(cache) || std::filesystem::is_directory(cache, ignored);
 }
 
 struct StageChain::Generation {

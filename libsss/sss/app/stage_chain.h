@@ -12,7 +12,9 @@
 
 namespace sss {
 
-/// Whether a cache is a folder of stages: there is one, or the name ends with "/".
+/// Whether the name of a cache ends with "/": a folder of stages, there or to be made.
+bool isFolderName(const std::filesystem::path& cache);
+/// ... or such a folder is there.
 bool isStageFolder(const std::filesystem::path& cache);
 
 struct ChainOptions {

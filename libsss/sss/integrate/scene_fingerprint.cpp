@@ -178,8 +178,9 @@ BodyInputs bodyInputs(const World& world, int bodyIndex, double spacingMm,
     addMesh(mesh, placedOn != nullptr ? *placedOn : body.mesh);
     inputs.push_back({"mesh", "the mesh (or its scale) is another", mesh.finish()});
     sampling.add(kPassOneVersion).add(spacingMm).add(quality.seed);
-    inputs.push_back(
-        {"sampling", "spacing, tolerance or seed of the points differ", sampling.finish()});
+    inputs.push_back({"sampling",
+                      "its points differ: in seed, or in spacing, by tolerance or medium",
+                      sampling.finish()});
     addMesh(shape, body.mesh);
     inputs.push_back({"shape", "it has another shape", shape.finish()});
     inputs.push_back({"medium", "the medium of its material is another", mediumOf(world, body)});
