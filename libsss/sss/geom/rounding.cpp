@@ -9,7 +9,8 @@ namespace {
 constexpr int kDigits = 36;
 constexpr int kSmallestUnit = -30;
 
-DVec3 cut(const DVec3& v, double unit) { return glm::round(v / unit) * unit; }
+// Plus zero: -0.0 becomes 0.0.
+DVec3 cut(const DVec3& v, double unit) { return glm::round(v / unit) * unit + 0.0; }
 
 }  // namespace
 
