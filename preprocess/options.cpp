@@ -3,7 +3,7 @@
 #include "sss/app/stage_chain.h"
 #include "sss/base/error.h"
 #include "sss/base/frame_list.h"
-#include "sss/scene/boundary_override.h"
+#include "sss/scene/material_override.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/core.h>
@@ -29,6 +29,9 @@ Quality
   --tolerance T           relative error of diffusion [the scene's, or 0.01]
   --spacing MM            distance between points [from tolerance and mean free path; mm]
   --seed N                of points and light samples [the scene's, or 0]
+  --model NAME            of all translucent materials: a profile (dipole,
+                          better_dipole, photon_beam, ...), or shape: diffusion
+                          solved on the body itself [the scene's, or dipole]
   --boundary KIND         exact, or polynomial: the papers' Fresnel fits, for all
                           translucent materials [the scene's, or exact]
   --max-points N          refuse, before allocating, an object with more [20000000]
@@ -110,6 +113,7 @@ std::optional<PreprocessOptions> readOptions(int argc, const char* const* argv) 
     app.add_option("--spacing", o.spacingMm);
     app.add_option("--tolerance", o.tolerance);
     app.add_option("--meters-per-unit", o.metersPerUnit);
+    app.add_option("--model", o.model);
     app.add_option("--boundary", boundary);
     app.add_option("--seed", o.seed)->check(CLI::NonNegativeNumber);
     app.add_option("--max-points", o.maxPoints)->check(CLI::NonNegativeNumber);

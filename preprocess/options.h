@@ -21,6 +21,7 @@ struct PreprocessOptions {
     std::optional<double> tolerance;
     std::optional<double> metersPerUnit;
     std::optional<sss::BoundaryModel> boundary;
+    std::string model;  ///< of diffusion; empty = the scene's
     std::optional<std::uint64_t> seed;
     std::uint64_t maxPoints = 20'000'000;
     unsigned threads = 0;  ///< 0 = all cores

@@ -8,7 +8,7 @@
 #include "sss/base/frame_list.h"
 #include "sss/base/parallel.h"
 #include "sss/cloud/ply_export.h"
-#include "sss/scene/boundary_override.h"
+#include "sss/scene/material_override.h"
 
 #include <fmt/core.h>
 
@@ -20,6 +20,7 @@ void applyOverrides(Scene& scene, const PreprocessOptions& options) {
     if (options.tolerance) scene.quality.tolerance = *options.tolerance;
     if (options.spacingMm) scene.quality.spacingMm = *options.spacingMm;
     if (options.seed) scene.quality.seed = *options.seed;
+    if (!options.model.empty()) setModel(scene, options.model, "--model");
     if (options.boundary) setBoundary(scene, *options.boundary);
 }
 

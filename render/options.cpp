@@ -4,7 +4,7 @@
 #include "sss/base/frame_list.h"
 #include "sss/base/near_name.h"
 #include "sss/integrate/integrator_table.h"
-#include "sss/scene/boundary_override.h"
+#include "sss/scene/material_override.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/core.h>
@@ -49,6 +49,9 @@ Quality
   --seed N                of all random numbers [the scene's, or 0]
   --max-points N          without --cache: refuse an object with more [20000000]
 
+  --model NAME            of all translucent materials: a profile (dipole,
+                          better_dipole, photon_beam, ...), or shape: diffusion
+                          solved on the body itself [the scene's, or dipole]
   --boundary KIND         exact, or polynomial: the papers' Fresnel fits, for all
                           translucent materials [the scene's, or exact]
 
@@ -77,7 +80,7 @@ Pictures compared (this prints to standard output and needs no scene)
 Output
   -o, --output OUT.exr    layered OpenEXR; a tone-mapped OUT.png is written beside it
   --no-png                ... or not
-  --stats JSON            write what the run cost
+  --stats JSON            write what the run cost, and what was left out (see README.md)
 
 Run
   --threads N             0 = all cores [0]
@@ -138,7 +141,6 @@ void checkMaterials(const RenderOptions& o, bool radiiGiven) {
     if (o.compare.json && !o.listMaterials && o.compare.files.empty())
         usage("--json", "belongs to --list-materials and --compare");
     if (!profile) {
-        if (!o.profile.model.empty()) usage("--model", "belongs to --profile");
         if (o.profile.csv) usage("--csv", "belongs to --profile");
         if (radiiGiven) usage("--radii", "belongs to --profile");
         if (o.profile.thicknessMm) usage("--thickness", "belongs to --profile");

@@ -13,7 +13,7 @@
 #include "sss/image/tone_map.h"
 #include "sss/integrate/integrator_table.h"
 #include "sss/integrate/renderer.h"
-#include "sss/scene/boundary_override.h"
+#include "sss/scene/material_override.h"
 
 #include <fmt/core.h>
 
@@ -28,6 +28,7 @@ void applyOverrides(Scene& scene, const RenderOptions& options) {
     if (options.samples) scene.film.samples = *options.samples;
     if (options.width) scene.film.width = *options.width;
     if (options.height) scene.film.height = *options.height;
+    if (!options.profile.model.empty()) setModel(scene, options.profile.model, "--model");
     if (options.profile.boundary) setBoundary(scene, *options.profile.boundary);
     // A frame of an animation has noise of its own; points never do.
     if (!options.frames.empty())
@@ -83,7 +84,24 @@ void recordExitance(RunStats& stats, const ExitanceCounts& total) {
     stats.count("localInteractions", total.sums.localInteractions);
     stats.count("nodeInteractions", total.sums.nodeInteractions);
     stats.count("pointInteractions", total.sums.pointInteractions);
+    stats.count("skippedNodes", total.sums.nodesSkipped);
+    stats.count("skippedPoints", total.sums.pointsSkipped);
     stats.value("instructionSet", accumulateTarget());
+}
+
+// What was left out because it brings nothing, or is known already.
+void recordSkips(RunStats& stats, const PathCounts& counts, bool needsFields,
+                 std::span<const std::unique_ptr<BodyOptics>> optics) {
+    int equalChannels = 0;
+    std::uint64_t limits = 0;
+    for (const auto& body : optics) {
+        equalChannels += body->equalChannels();
+        limits += body->inDiffuseLimit ? 1 : 0;
+    }
+    stats.count("equalChannels", static_cast<std::uint64_t>(equalChannels));
+    stats.count("diffuseLimitBodies", limits);
+    stats.count("passOneSkipped", needsFields && limits < optics.size() ? 0 : 1);
+    stats.count("singleScatteringSkipped", counts.singleSkipped);
 }
 
 // Share of the paths that may meet a surface where none should be, by rounding.
@@ -163,7 +181,8 @@ public:
                   {options.maxPoints},
                   options.cacheOnly,
                   false,
-                  options.explain},
+                  options.explain,
+                  true},
                  reporter, stats),
           exitance_(options.noKeep ? nullptr : chain_.folder(), reporter, stats) {}
 
@@ -250,6 +269,7 @@ private:
             writePictures(options_, scene, frame, result.image, reporter_);
         }
         recordRender(stats_, scene, result);
+        recordSkips(stats_, result.counts, needsFields, optics);
         std::vector<StageRow> rows = needsFields ? chain_.rows() : std::vector<StageRow>();
         for (StageRow& row : exitance_.finishFrame(isLast)) rows.push_back(std::move(row));
         return rows;

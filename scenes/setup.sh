@@ -12,6 +12,8 @@ SSS_PACKAGES=(
 )
 # For tests/run.sh only.
 SSS_TEST_PACKAGES=(clang-format clang-tidy python3-jsonschema)
+# For tests/stress/run.sh --full only.
+SSS_STRESS_PACKAGES=(clang libclang-rt-14-dev valgrind)
 # For tests/bench/run.sh only: its plots.
 SSS_BENCH_PACKAGES=(python3-matplotlib)
 # ... and with --peer mitsuba: its environment, and a newer LLVM than Debian 12's own for its compiler.

@@ -25,7 +25,7 @@ if(SSS_SANITIZE)
   target_compile_options(sss_options INTERFACE
     -fsanitize=${SSS_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all
     # The sanitizers' own instrumentation confuses this warning in GCC 12.
-    -Wno-maybe-uninitialized)
+    $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
   target_link_options(sss_options INTERFACE -fsanitize=${SSS_SANITIZE})
   target_compile_definitions(sss_options INTERFACE SSS_SANITIZED=1)
 endif()

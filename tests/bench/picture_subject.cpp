@@ -13,7 +13,8 @@ BodyCloud cloudOf(const Stage& stage, const std::string& cacheFile) {
     return {{view.cloud.points.begin(), view.cloud.points.end()},
             {view.cloud.irradiance.begin(), view.cloud.irradiance.end()},
             {view.nodes.begin(), view.nodes.end()},
-            view.spacingMm};
+            view.spacingMm,
+            {view.correction.begin(), view.correction.end()}};
 }
 
 }  // namespace

@@ -17,8 +17,8 @@ Stage::Made Stage::makeCloud() const {
     SilentReporter silent;
     SurfaceSamples samples =
         placePoints(world_, 0, optics(), {.mostPoints = 100'000'000}, silent, made.report);
-    std::vector<Rgb> irradiance = lightPoints(world_, 0, samples, optics_, silent, made.report);
-    made.cloud = buildCloud(std::move(samples), std::move(irradiance), made.report);
+    IrradianceResult light = lightPoints(world_, 0, samples, optics_, silent, made.report);
+    made.cloud = buildCloud(std::move(samples), std::move(light.irradiance), made.report);
     return made;
 }
 

@@ -76,7 +76,7 @@ class Animation(CliTest):
                                      self.bytes_of(f"r.{n:04d}.{kind}"), f"{name} {n} {kind}")
         # The same stages, the same bytes, whoever made them; exitance is merged in turn.
         for path in sorted((self.folder / "c").iterdir()):
-            if path.suffix in (".ssp", ".ssi"):
+            if path.suffix in (".ssp", ".ssi", ".ssb", ".ssd"):
                 self.assertEqual((self.folder / "shared" / path.name).read_bytes(),
                                  path.read_bytes())
         return self.rows()
@@ -111,6 +111,67 @@ class Animation(CliTest):
         for frame in (3, 10):
             for stage in ("points", "irradiance", "octree"):
                 self.assertTrue(rows[frame]["box", stage], frame)
+
+    def shape_scene(self, name="scene.json", **changes):
+        """The harness's ball, small enough for its shape to matter."""
+        ball = {"name": "ball", "shape": "sphere", "radius": 2, "material": "stone"}
+        stone = {"type": "translucent", "medium": "Marble", "diffusion": "shape"}
+        return super().write_scene(name, **{"objects": [ball], "materials": {"stone": stone},
+                                            "quality": {"tolerance": 0.1, "bounces": 0}, **changes})
+
+    def test_shape_under_a_moving_camera(self):
+        scene = self.shape_scene(camera={"position": keys((1, [0, 1, 11]), (5, [4, 1, 10]))})
+        rows = self.same_frames(scene, "1-3")
+        for stage in ("points", "irradiance", "octree", "shape"):
+            self.assertFalse(rows[1]["ball", stage])
+            self.assertTrue(rows[2]["ball", stage] and rows[3]["ball", stage], stage)
+        self.assertNotEqual(self.bytes_of("r.0001.exr"), self.bytes_of("r.0002.exr"))
+
+    def test_shape_under_a_moving_light(self):
+        scene = self.shape_scene(lights=[
+            {**LAMP, "transform": [{"rotate": {"axis": [0, 1, 0],
+                                               "degrees": keys((1, 0), (10, 90))}}]}, SKY])
+        rows = self.same_frames(scene, "1,4")
+        self.assertTrue(rows[4]["ball", "points"])
+        for stage in ("irradiance", "octree", "shape"):
+            self.assertFalse(rows[4]["ball", stage])
+
+    def test_shape_of_a_changing_medium(self):
+        stone = {"type": "translucent", "sigmaSPrimePerMm": 2.5, "diffusion": "shape",
+                 "sigmaAPerMm": keys((1, 0.002), (3, 0.02))}
+        rows = self.same_frames(self.shape_scene(materials={"stone": stone}), "1-2")
+        for stage in ("points", "irradiance", "octree"):
+            self.assertTrue(rows[2]["ball", stage], stage)
+        self.assertFalse(rows[2]["ball", "shape"])
+
+    def test_shape_after_a_profile(self):
+        """Light that was gathered for a profile is the same light; only its beams are lacking."""
+        scene = self.shape_scene()
+        self.assert_ok(self.render(scene, "-o", "alone.exr"))
+        self.assert_ok(self.preprocess(scene, "--model", "dipole", "-o", "c/"))
+        kept = {path.name: path.read_bytes() for path in (self.folder / "c").glob("*.ss*")}
+        out = self.assert_ok(self.preprocess(scene, "-o", "c/", "--explain")).out
+        self.assertIn("ball: irradiance made: no beams were kept", out)
+        self.assertIn("ball: octree reused", out)
+        self.assertIn("ball: shape made", out)
+        for name, content in kept.items():
+            self.assertEqual(self.bytes_of(f"c/{name}"), content, name)
+        self.assert_ok(self.render(scene, "--cache", "c/", "--cache-only", "-o", "cached.exr"))
+        self.assertEqual(self.bytes_of("cached.exr"), self.bytes_of("alone.exr"))
+        next((self.folder / "c").glob("*.ssd")).unlink()
+        self.assert_refused(BAD_INPUT, 'no shape for "ball"', self.render, scene, "--cache", "c/",
+                            "--cache-only", "-o", "none.exr")
+
+    def test_diffuse_limit_needs_no_stages(self):
+        """Nor at a distance; closer by, the same body may want them."""
+        camera = {"position": keys((1, [0, 600, 6000]), (2, [0, 600, 6000]), (3, [0, 3, 26]))}
+        stone = {"type": "translucent", "sigmaSPrimePerMm": 10, "sigmaAPerMm": 0.3}
+        scene = self.write_scene(camera=camera, materials={"stone": stone})
+        rows = self.same_frames(scene, "1-3")
+        self.assertEqual((rows[1], rows[2]), ({}, {}))
+        self.assertFalse(rows[3]["ball", "points"])
+        stats = json.loads((self.folder / "stats.json").read_text())["counts"]
+        self.assertEqual((stats["diffuseLimitBodies"], stats["passOneSkipped"]), (2, 2))
 
     def test_changing_medium(self):
         scene = self.write_scene(

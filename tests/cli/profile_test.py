@@ -233,7 +233,7 @@ class Refused(ProfileTest):
         for value in ("-1", "1,,2", "nan", "1;2", "1,inf"):
             self.refused(USAGE, "--radii", "--profile", "Marble", "--radii=" + value)
         self.refused(USAGE, "--boundary.*exact", "--profile", "Marble", "--boundary", "exakt")
-        for option in (["--model", "dipole"], ["--csv"], ["--radii", "1"], ["--json"]):
+        for option in (["--csv"], ["--radii", "1"], ["--json"]):
             self.refused(USAGE, option[0], self.write_scene(), "-o", "out.exr", *option)
 
 

@@ -9,6 +9,21 @@ JsonValue list(const DRgb& v) {
     return array;
 }
 
+JsonValue describe(const ShapeExitance& shape) {
+    JsonValue solved = JsonValue::object();
+    solved.set("sums", shape.report.layers.sums)
+        .set("iterations", shape.report.solve.iterations)
+        .set("residual", list(shape.report.solve.residual))
+        .set("nodeInteractions", shape.report.layers.nodeInteractions)
+        .set("pointInteractions", shape.report.layers.pointInteractions)
+        .set("sourceInteractions", shape.report.sources.interactions())
+        .set("leaves", list(shape.leaves))
+        .set("single", list(shape.single))
+        .set("unscattered", list(shape.unscattered))
+        .set("absorbed", list(shape.absorbed));
+    return solved;
+}
+
 JsonValue describe(const BodyReport& report, const BodyOptics& optics) {
     JsonValue body = JsonValue::object();
     body.set("name", report.name)
@@ -20,6 +35,7 @@ JsonValue describe(const BodyReport& report, const BodyOptics& optics) {
         .set("expectedQuadratureError", report.expectedQuadratureError)
         .set("irradianceSamples", report.irradianceSamples)
         .set("irradianceNoise", report.irradianceNoise);
+    if (report.shape) body.set("shape", describe(*report.shape));
     return body;
 }
 
@@ -35,13 +51,15 @@ void recordBodies(std::span<const BodyReport> reports, std::span<const bool> mad
         if (made[b]) {
             stats.count("points", report.points);
             stats.count("nodes", report.nodes);
-            stats.count("rays", report.counts.rays);
-            stats.count("nan", report.nonFinite);
         }
+        stats.count("rays", report.counts.rays);
+        stats.count("nan", report.nonFinite);
         bodies.push(describe(report, *optics[b]));
-        if (report.spacingMm < reports[finest].spacingMm) finest = b;
+        const bool isFirst = !(reports[finest].spacingMm > 0);
+        if (report.spacingMm > 0 && (isFirst || report.spacingMm < reports[finest].spacingMm))
+            finest = b;
     }
-    if (!reports.empty()) {
+    if (!reports.empty() && reports[finest].spacingMm > 0) {
         stats.value("spacingMm", reports[finest].spacingMm);
         stats.value("meanFreePathMm", list(optics[finest]->material.medium.meanFreePathMm()));
     }

@@ -8,9 +8,6 @@ namespace sss {
 namespace {
 
 constexpr double kTrialPoints = 2000;
-// Measured on the bunny, 100 000 points and more: points, cells, octree and irradiance at the most
-// that is there at once.
-constexpr double kBytesPerPoint = 700;
 // Placing a point, of one thread; on top of what the trial says.
 constexpr double kSecondsPerPoint = 10e-6;
 
@@ -42,15 +39,22 @@ JsonValue estimatePassOne(const World& world, std::span<const std::unique_ptr<Bo
         const SurfaceSamples trial = sampleSurface(body.mesh, sampling);
         const double placed = nowSeconds();
         BodyReport report;
-        lightPoints(*light, static_cast<int>(b), trial, optics, silent, report);
-        const double lit = nowSeconds();
+        describePoints(body, *optics[b], trial.size(), report);
+        IrradianceResult lit =
+            lightPoints(*light, static_cast<int>(b), trial, optics, silent, report);
+        if (optics[b]->onShape) {
+            const BodyCloud cloud = buildCloud(trial, std::move(lit.irradiance), report);
+            shapeCorrection(*light, static_cast<int>(b), trial, lit.beams, optics, cloud.view(),
+                            silent, report);
+        }
+        const double done = nowSeconds();
         const auto count = static_cast<double>(trial.size());
-        seconds += placed - start + (lit - placed) * wanted / count +
+        seconds += placed - start + (done - placed) * wanted / count +
                    std::max(0.0, wanted - count) * kSecondsPerPoint;
     }
     JsonValue estimate = JsonValue::object();
     estimate.set("points", points)
-        .set("memoryBytes", points * kBytesPerPoint)
+        .set("memoryBytes", points * static_cast<double>(kBytesPerPoint))
         .set("seconds", seconds)
         .set("bodies", std::move(bodies));
     return estimate;

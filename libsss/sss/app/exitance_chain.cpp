@@ -15,6 +15,12 @@ double nowSeconds() {
         .count();
 }
 
+std::uint64_t groupsOf(std::span<const std::unique_ptr<BodyField>> fields) {
+    std::uint64_t groups = 0;
+    for (const auto& field : fields) groups += field ? field->counts().groups : 0;
+    return groups;
+}
+
 }  // namespace
 
 // One file, and the fields of the bodies in it.
@@ -53,11 +59,13 @@ std::span<const std::unique_ptr<BodyField>> ExitanceChain::fields(
             retire(b);
             kept_[b] = {std::move(input), 0, true};
             const FieldInput& own = kept_[b].input;
+            if (own.exitance == Fingerprint{}) continue;
             fields_[b] = std::make_unique<BodyField>(*own.body, *own.optics, own.cloud, tolerance);
         }
         keep(beside);
     }
-    for (std::size_t b = 0; b < fields_.size(); ++b) kept_[b].groups = fields_[b]->counts().groups;
+    for (std::size_t b = 0; b < fields_.size(); ++b)
+        kept_[b].groups = fields_[b] ? fields_[b]->counts().groups : 0;
     return fields_;
 }
 
@@ -66,7 +74,9 @@ void ExitanceChain::keep(const std::filesystem::path& beside) {
     for (const Kept& kept : kept_) all.push_back(kept.input.exitance);
     if (folder_ != nullptr) {
         for (std::size_t b = 0; b < all.size(); ++b)
-            keepers_.push_back({{folder_->file(Stage::Exitance, all[b]), {all[b]}}, b, 1, all[b]});
+            if (fields_[b])
+                keepers_.push_back(
+                    {{folder_->file(Stage::Exitance, all[b]), {all[b]}}, b, 1, all[b]});
     } else if (!beside.empty() && !all.empty()) {
         keepers_.push_back({{exitanceFileOf(beside), all}, 0, all.size(), all[0]});
     }
@@ -74,15 +84,14 @@ void ExitanceChain::keep(const std::filesystem::path& beside) {
     for (Keeper& keeper : keepers_) {
         const auto fields = std::span(fields_).subspan(keeper.first, keeper.count);
         stats_.count("exitanceGroupsReused", keeper.cache.load(fields, reporter_));
-        for (const auto& field : fields) keeper.saved += field->counts().groups;
+        keeper.saved = groupsOf(fields);
     }
 }
 
 void ExitanceChain::save() {
     for (Keeper& keeper : keepers_) {
         const auto fields = std::span(fields_).subspan(keeper.first, keeper.count);
-        std::uint64_t groups = 0;
-        for (const auto& field : fields) groups += field->counts().groups;
+        const std::uint64_t groups = groupsOf(fields);
         if (groups == keeper.saved) continue;
         const auto timer = stats_.seconds("write");
         StageFolder::Lock lock;
@@ -96,6 +105,7 @@ void ExitanceChain::save() {
 std::vector<StageRow> ExitanceChain::finishFrame(bool now) {
     std::vector<StageRow> rows;
     for (std::size_t b = 0; b < fields_.size(); ++b) {
+        if (!fields_[b]) continue;
         const std::uint64_t made = fields_[b]->counts().groups - kept_[b].groups;
         StageRow row{kept_[b].input.body->name, "exitance", made == 0, ""};
         if (made > 0)

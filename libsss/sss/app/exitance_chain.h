@@ -19,7 +19,7 @@ struct FieldInput {
     const Body* body;
     const BodyOptics* optics;
     BodyCloud::View cloud;
-    Fingerprint exitance;               ///< of all that it depends on
+    Fingerprint exitance;  ///< of all that it depends on; 0: the frame needs no field of the body
     std::shared_ptr<const void> owner;  ///< keeps all that the above refers to
 };
 

@@ -144,7 +144,9 @@ Fingerprint SceneFrames::pictureFingerprint(const Scene& scene) {
     for (const NamedMaterial& material : scene.materials) {
         h.add(material.spacingMm);
         if (const auto* translucent = std::get_if<TranslucentMaterial>(&material.material))
-            h.add(static_cast<std::uint64_t>(translucent->profileOptions.boundary));
+            h.add(static_cast<std::uint64_t>(translucent->profileOptions.boundary))
+                .add(translucent->profile)
+                .add(std::uint64_t{translucent->onShape});
     }
     const auto addShape = [&](const Shape& shape) {
         if (const auto* mesh = std::get_if<MeshFileShape>(&shape)) h.add(contentOf(mesh->path));

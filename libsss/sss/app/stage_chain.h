@@ -23,12 +23,14 @@ struct ChainOptions {
     bool only = false;     ///< what is not in the folder is an error
     bool mustKeep = true;  ///< a stage that cannot be written is an error, not a warning
     bool explain = false;  ///< look through the folder for what changed
+    /// Bodies that the camera may see by their diffuse limit (findDiffuseLimits()) need no stages.
+    bool byDiffuseLimit = false;
 };
 
-/// Pass 1 as a chain of stages (points, irradiance and octree, exitance), each with the fingerprint
-/// of all that it depends on. A frame takes each stage from the frame before it or from the folder
-/// if the fingerprint holds, and makes the others. What it gives is the same bytes wherever the
-/// stages came from.
+/// Pass 1 as a chain of stages (points; irradiance with beams and octree; diffusion on the shape
+/// where a body asks for it; exitance), each with the fingerprint of all that it depends on. A
+/// frame takes each stage from the frame before it or from the folder if the fingerprint holds, and
+/// makes the others. What it gives is the same bytes wherever the stages came from.
 class StageChain {
 public:
     StageChain(ChainOptions options, Reporter& reporter, RunStats& stats);
@@ -43,7 +45,8 @@ public:
     /// scene.
     void open(const std::filesystem::path& file, std::shared_ptr<const World> world,
               const World* reference);
-    /// The frame has the same world: its stages hold.
+    /// The frame has the same world, seen by another camera: its stages hold, and bodies that were
+    /// in their diffuse limit may want some.
     void reuse();
 
     // Of the world prepared last, by body.
@@ -63,12 +66,25 @@ private:
     struct BodyStage;
 
     void begin(std::shared_ptr<const World> world, const World* reference);
-    void findOrMake(std::size_t body);
-    bool takeFromFolder(std::size_t body);
-    void make(std::size_t body);
+    void adopt(std::size_t body);
+    void findLimits();
+    bool isNeeded(std::size_t body) const;
+    void finish();
+
+    // In stage_maker.cpp.
+    void bring(std::size_t body);
+    bool takeLight(std::size_t body);
+    void makeLight(std::size_t body);
+    void bringShape(std::size_t body);
+    bool takeShape(std::size_t body);
+    void makeShape(std::size_t body);
     SurfaceSamples points(std::size_t body);
-    void write(Stage stage, const Fingerprint& made, const std::function<void(CacheWriter&)>& fill);
-    void addRow(std::size_t body, std::string stage, bool reused);
+    std::shared_ptr<const EnteredBeams> beams(std::size_t body);
+    IrradianceResult light(std::size_t body, const SurfaceSamples& samples);
+    const World& lightSpace();
+    void requireMayMake(std::size_t body, Stage stage) const;
+    void write(std::size_t body, Stage stage, const BodyReport& report,
+               const std::function<void(CacheWriter&)>& fill);
     std::string whyNot(std::size_t body, Stage stage) const;
 
     ChainOptions options_;
@@ -79,7 +95,6 @@ private:
     std::vector<std::unique_ptr<BodyStage>> stages_,
         before_;                          // by body; before_: of the last world
     std::unique_ptr<const World> light_;  // made when first needed
-    std::shared_ptr<const CloudCache> file_;
     std::vector<StageRow> rows_;
 };
 

@@ -10,7 +10,7 @@ namespace sss {
 /// One stage of one body in one frame: whether it was there already, and if not, why.
 struct StageRow {
     std::string body;
-    std::string stage;  ///< points, irradiance, octree, exitance
+    std::string stage;  ///< points, irradiance, octree, shape, exitance
     bool reused = false;
     std::string why;  ///< empty if reused
 };

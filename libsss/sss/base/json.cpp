@@ -7,11 +7,8 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
-#include <fstream>
 #include <iterator>
-#include <system_error>
 #include <unordered_set>
 
 namespace sss {
@@ -211,31 +208,66 @@ private:
     JsonValue root_;
 };
 
-nlohmann::ordered_json toLibrary(const JsonValue& value) {
-    if (value.isBool()) return value.asBool();
-    if (value.isString()) return value.asString();
-    if (value.isNumber()) {
+/// Appends values as text. nlohmann writes the texts and numbers only: its arrays and objects
+/// allocate when they are destroyed, which ends the process where there is no memory left.
+class Writer {
+public:
+    Writer(std::string& out, int indent) : out_(out), indent_(indent) {}
+
+    void add(const JsonValue& value, int depth = 0) {
+        if (value.isArray()) {
+            addAll('[', value.items(), ']', depth,
+                   [&](const JsonValue& item) { add(item, depth + 1); });
+        } else if (value.isObject()) {
+            addAll('{', value.members(), '}', depth, [&](const JsonMember& member) {
+                addScalar(member.key);
+                out_ += indent_ < 0 ? ":" : ": ";
+                add(member.value, depth + 1);
+            });
+        } else if (value.isString()) {
+            addScalar(value.asString());
+        } else if (value.isBool()) {
+            out_ += value.asBool() ? "true" : "false";
+        } else if (value.isNumber()) {
+            addNumber(value.asNumber());
+        } else {
+            out_ += "null";
+        }
+    }
+
+private:
+    template <typename Items, typename AddItem>
+    void addAll(char open, const Items& items, char close, int depth, const AddItem& addItem) {
+        out_ += open;
+        bool isFirst = true;
+        for (const auto& item : items) {
+            if (!isFirst) out_ += ',';
+            isFirst = false;
+            newLine(depth + 1);
+            addItem(item);
+        }
+        if (!items.empty()) newLine(depth);
+        out_ += close;
+    }
+    void newLine(int depth) {
+        if (indent_ < 0) return;
+        out_ += '\n';
+        out_.append(static_cast<std::size_t>(indent_ * depth), ' ');
+    }
+    void addNumber(double number) {
         constexpr double kExactIntegers = 9007199254740992.0;  // 2^53
-        const double number = value.asNumber();
-        if (std::abs(number) <= kExactIntegers && number == std::trunc(number)) {
-            return static_cast<std::int64_t>(number);
-        }
-        return number;
+        if (std::abs(number) <= kExactIntegers && number == std::trunc(number))
+            addScalar(static_cast<std::int64_t>(number));
+        else
+            addScalar(number);
     }
-    if (value.isArray()) {
-        auto array = nlohmann::ordered_json::array();
-        for (const JsonValue& item : value.items()) array.push_back(toLibrary(item));
-        return array;
+    void addScalar(const nlohmann::json& scalar) {
+        out_ += scalar.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
     }
-    if (value.isObject()) {
-        auto object = nlohmann::ordered_json::object();
-        for (const JsonMember& member : value.members()) {
-            object[member.key] = toLibrary(member.value);
-        }
-        return object;
-    }
-    return nullptr;
-}
+
+    std::string& out_;
+    int indent_;
+};
 
 }  // namespace
 
@@ -253,32 +285,10 @@ JsonValue parseJson(std::string_view text, const std::string& fileName) {
     return builder.takeRoot();
 }
 
-JsonValue readJsonFile(const std::filesystem::path& file) {
-    const std::string name = file.string();
-    std::error_code ignored;
-    errno = 0;
-    std::ifstream stream(file, std::ios::binary);
-    const int reason = std::filesystem::is_directory(file, ignored) ? EISDIR : errno;
-    if (!stream || reason == EISDIR) {
-        throw Error(
-            ErrorKind::Io, name,
-            fmt::format("the file cannot be opened: {}", std::generic_category().message(reason)),
-            "check its name and that it may be read");
-    }
-    std::string text;
-    // One byte over the limit is enough for parseJson to refuse a file that never ends.
-    std::vector<char> block(std::size_t{1} << 20);
-    while (stream && text.size() <= kMaxJsonBytes) {
-        stream.read(block.data(), static_cast<std::streamsize>(block.size()));
-        text.append(block.data(), static_cast<std::size_t>(stream.gcount()));
-    }
-    if (stream.bad()) throw Error(ErrorKind::Io, name, "the file cannot be read to its end");
-    return parseJson(text, name);
-}
-
 std::string dump(const JsonValue& value, int indent) {
-    return toLibrary(value).dump(indent, ' ', false,
-                                 nlohmann::ordered_json::error_handler_t::replace);
+    std::string text;
+    Writer(text, indent).add(value);
+    return text;
 }
 
 }  // namespace sss

@@ -29,12 +29,12 @@ public:
     using Object = std::vector<JsonMember>;
 
     JsonValue() = default;  ///< null
-    JsonValue(bool value) : data_(value) {}
+    JsonValue(bool value);
     template <JsonNumber Number>
-    JsonValue(Number value) : data_(static_cast<double>(value)) {}
-    JsonValue(std::string value) : data_(std::move(value)) {}
-    JsonValue(std::string_view value) : data_(std::string(value)) {}
-    JsonValue(const char* value) : data_(std::string(value)) {}
+    JsonValue(Number value);
+    JsonValue(std::string value);
+    JsonValue(std::string_view value);
+    JsonValue(const char* value);
 
     static JsonValue array();
     static JsonValue array(Array items);
@@ -77,6 +77,9 @@ struct JsonMember {
     JsonPlace keyPlace;
     JsonValue value;
 };
+
+template <JsonNumber Number>
+JsonValue::JsonValue(Number value) : data_(static_cast<double>(value)) {}
 
 inline constexpr std::size_t kMaxJsonBytes = std::size_t{64} << 20;
 inline constexpr int kMaxJsonDepth = 64;

@@ -2,6 +2,12 @@
 
 namespace sss {
 
+// Not in the class, where JsonMember is yet to come.
+JsonValue::JsonValue(bool value) : data_(value) {}
+JsonValue::JsonValue(std::string value) : data_(std::move(value)) {}
+JsonValue::JsonValue(std::string_view value) : data_(std::string(value)) {}
+JsonValue::JsonValue(const char* value) : data_(std::string(value)) {}
+
 JsonValue JsonValue::array() { return array(Array()); }
 
 JsonValue JsonValue::array(Array items) {

@@ -84,6 +84,10 @@ void parallelFor(std::size_t count, std::size_t grain,
     if (count == 0) return;
     grain = std::max<std::size_t>(grain, 1);
     const std::size_t chunks = (count - 1) / grain + 1;
+    if (chunks == 1) {
+        body(0, count);
+        return;
+    }
     runChunks(chunks, [&](std::size_t chunk) {
         body(chunk * grain, std::min(count, (chunk + 1) * grain));
     });

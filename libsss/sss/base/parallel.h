@@ -23,7 +23,9 @@ private:
 /// Calls body(begin, end) on disjoint ranges that cover [0, count), each at most `grain` long and
 /// starting at a multiple of `grain`, whatever the number of threads. For results that do not
 /// depend on the threads, write only to places that belong to the range, and reduce per range in
-/// order afterwards. The first exception is rethrown.
+/// order afterwards. A single range runs in the calling thread, which takes up no other work
+/// meanwhile: code that holds what others wait for may call this with few enough items. The first
+/// exception is rethrown.
 void parallelFor(std::size_t count, std::size_t grain,
                  const std::function<void(std::size_t begin, std::size_t end)>& body);
 

@@ -30,6 +30,8 @@ void SumCounts::add(const SumCounts& other) {
     nodeInteractions += other.nodeInteractions;
     pointInteractions += other.pointInteractions;
     nodesVisited += other.nodesVisited;
+    nodesSkipped += other.nodesSkipped;
+    pointsSkipped += other.pointsSkipped;
     groups += other.groups;
     repeats += other.repeats;
 }
@@ -52,7 +54,10 @@ DRgb DiffusionSum::estimate(const ReceiverCell& cell, Scratch& scratch, SumCount
         const OctreeNode& node = nodes_[stack.back()];
         stack.pop_back();
         ++counts.nodesVisited;
-        if (isZero(node.flux)) continue;
+        if (isZero(node.flux)) {
+            ++counts.nodesSkipped;
+            continue;
+        }
         const Vec3 d = node.centroid - cell.centre;
         const float distanceSquared = glm::dot(d, d);
         const float size = node.radius();
@@ -65,13 +70,16 @@ DRgb DiffusionSum::estimate(const ReceiverCell& cell, Scratch& scratch, SumCount
     return sum;
 }
 
-void DiffusionSum::open(const OctreeNode& node, CandidateList& fresh, Scratch& scratch) const {
+void DiffusionSum::open(const OctreeNode& node, CandidateList& fresh, Scratch& scratch,
+                        SumCounts& counts) const {
     for (std::uint32_t k = 0; k < node.size(); ++k) {
         const std::uint32_t i = node.first + k;
         if (!node.isLeaf())
             fresh.add(nodes_[i], i);
         else if (const Rgb flux = cloud_.flux(i); !isZero(flux))
             scratch.points.addPoint(cloud_.points[i].position, flux);
+        else
+            ++counts.pointsSkipped;
     }
 }
 
@@ -90,14 +98,17 @@ ErrorBound DiffusionSum::gather(const CellTest& cell, const CandidateList& from,
             counts.nodesVisited += block.count;
             const Verdict verdict = judge(table_, block, cell, error);
             for (std::uint32_t i = 0; i < block.count; ++i) {
-                if ((verdict.dark >> i) & 1) continue;
+                if ((verdict.dark >> i) & 1) {
+                    ++counts.nodesSkipped;
+                    continue;
+                }
                 const OctreeNode& node = nodes_[block.node[i]];
                 if ((verdict.taken >> i) & 1)
                     whole.addNode(node);
                 else if (pending && (node.isLeaf() || block.radius[i] < cell.radius))
                     pending->add(block, i);
                 else
-                    open(node, fresh, scratch);
+                    open(node, fresh, scratch, counts);
             }
         }
         now = &fresh;

@@ -22,6 +22,9 @@ struct SumCounts {
     std::uint64_t nodeInteractions = 0;   ///< receiver x node
     std::uint64_t pointInteractions = 0;  ///< receiver x point
     std::uint64_t nodesVisited = 0;       ///< by cells
+    /// Of these, left with all below them: no flux, or farther than the profile reaches.
+    std::uint64_t nodesSkipped = 0;
+    std::uint64_t pointsSkipped = 0;  ///< points without flux, met by cells in opened leaves
     std::uint64_t groups = 0;
     std::uint64_t repeats = 0;  ///< of leaves whose bounds added up to too much
 
@@ -94,7 +97,8 @@ private:
     /// which points are taken one by one. Returns the bounds of what is left out.
     ErrorBound gather(const CellTest& cell, const CandidateList& from, CandidateList* pending,
                       Scratch& scratch, SumCounts& counts) const;
-    void open(const OctreeNode& node, CandidateList& fresh, Scratch& scratch) const;
+    void open(const OctreeNode& node, CandidateList& fresh, Scratch& scratch,
+              SumCounts& counts) const;
 
     CloudView cloud_;
     std::span<const OctreeNode> nodes_;

@@ -65,8 +65,8 @@ std::size_t ExitanceBuilder::PositionHash::operator()(const Vec3& p) const {
 }
 
 ExitanceBuilder::ExitanceBuilder(const ExitanceSites& sites, const DiffusionSum& sum,
-                                 double tolerance)
-    : sites_(sites), sum_(sum), tolerance_(tolerance) {}
+                                 const PointInterpolator* correction, double tolerance)
+    : sites_(sites), sum_(sum), correction_(correction), tolerance_(tolerance) {}
 
 Vec3 ExitanceBuilder::positionOf(std::size_t patch, const Vec2& inPatch) const {
     return sites_.position(patches_[patch].face, patches_[patch].at(inPatch));
@@ -75,6 +75,9 @@ Vec3 ExitanceBuilder::positionOf(std::size_t patch, const Vec2& inPatch) const {
 void ExitanceBuilder::sumAt(std::span<const Vec3> positions, std::span<Rgb> values,
                             ExitanceCounts& counts) {
     sum_.evaluate(positions, tolerance_, values, scratch_, counts.sums);
+    if (correction_ == nullptr) return;
+    correction_->addTo(positions, values);
+    for (Rgb& value : values) value = glm::max(value, Rgb(0));
 }
 
 void ExitanceBuilder::layOut(ExitanceCounts& counts) {

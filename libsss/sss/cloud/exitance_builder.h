@@ -2,6 +2,7 @@
 #include "sss/cloud/diffusion_sum.h"
 #include "sss/cloud/exitance_group.h"
 #include "sss/cloud/exitance_sites.h"
+#include "sss/cloud/point_interpolator.h"
 
 #include <cstdint>
 #include <span>
@@ -28,7 +29,9 @@ struct ExitanceCounts {
 class ExitanceBuilder {
 public:
     /// All must outlive the builder. `tolerance` 0: corners only, no hierarchy.
-    ExitanceBuilder(const ExitanceSites& sites, const DiffusionSum& sum, double tolerance);
+    /// `correction`, if any, is added to the sum everywhere.
+    ExitanceBuilder(const ExitanceSites& sites, const DiffusionSum& sum,
+                    const PointInterpolator* correction, double tolerance);
     ExitanceGroup build(std::uint32_t group, ExitanceCounts& counts);
 
 private:
@@ -49,6 +52,7 @@ private:
 
     const ExitanceSites& sites_;
     const DiffusionSum& sum_;
+    const PointInterpolator* correction_;
     double tolerance_;
     std::vector<ExitanceSites::Patch> patches_;
     std::vector<std::uint8_t> levels_;

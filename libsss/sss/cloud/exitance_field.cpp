@@ -12,15 +12,19 @@ const ExitanceGroup* busy() {
 }  // namespace
 
 ExitanceField::ExitanceField(const TriangleMesh& mesh, const DiffusionSum& sum, double segmentMm,
-                             double tolerance)
-    : sum_(sum), sites_(mesh, segmentMm), tolerance_(tolerance), groups_(sites_.groupCount()) {}
+                             double tolerance, const PointInterpolator* correction)
+    : sum_(sum),
+      correction_(correction),
+      sites_(mesh, segmentMm),
+      tolerance_(tolerance),
+      groups_(sites_.groupCount()) {}
 
 ExitanceField::~ExitanceField() {
     for (const auto& entry : groups_) delete entry.load();
 }
 
 std::unique_ptr<ExitanceGroup> ExitanceField::compute(std::uint32_t index) const {
-    ExitanceBuilder builder(sites_, sum_, tolerance_);
+    ExitanceBuilder builder(sites_, sum_, correction_, tolerance_);
     ExitanceCounts spent;
     auto result = std::make_unique<ExitanceGroup>(builder.build(index, spent));
     const std::scoped_lock lock(countsMutex_);

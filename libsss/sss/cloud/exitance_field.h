@@ -20,9 +20,10 @@ namespace sss {
 /// whoever that is.
 class ExitanceField {
 public:
-    /// All must outlive the field. `tolerance` 0 = no hierarchy, no refinement.
+    /// All must outlive the field. `tolerance` 0 = no hierarchy, no refinement. `correction`, if
+    /// any, is added to the sum everywhere.
     ExitanceField(const TriangleMesh& mesh, const DiffusionSum& sum, double segmentMm,
-                  double tolerance);
+                  double tolerance, const PointInterpolator* correction = nullptr);
     ~ExitanceField();
     ExitanceField(const ExitanceField&) = delete;
     ExitanceField& operator=(const ExitanceField&) = delete;
@@ -42,6 +43,7 @@ private:
     std::unique_ptr<ExitanceGroup> compute(std::uint32_t index) const;
 
     const DiffusionSum& sum_;
+    const PointInterpolator* correction_;
     ExitanceSites sites_;
     double tolerance_;
     mutable std::vector<std::atomic<const ExitanceGroup*>> groups_;

@@ -12,8 +12,24 @@ constexpr std::size_t kListLength = 16;
 constexpr std::size_t kSeedCandidates = 4;
 // Pieces smaller than this share of their face are rounding.
 constexpr double kSmallestShare = 1e-9;
+// Up to so many reached points a look through them all is quicker than a hash.
+constexpr std::size_t kFewReached = 64;
 
 }  // namespace
+
+void ReachedPoints::reset(std::uint32_t first) {
+    order_.assign(1, first);
+    if (!known_.empty()) known_.clear();  // which costs as much as it has room
+}
+
+void ReachedPoints::add(std::uint32_t point) {
+    if (order_.size() < kFewReached) {
+        if (std::find(order_.begin(), order_.end(), point) == order_.end()) order_.push_back(point);
+        return;
+    }
+    if (known_.empty()) known_.insert(order_.begin(), order_.end());
+    if (known_.insert(point).second) order_.push_back(point);
+}
 
 NeighbourLists::NeighbourLists(const CellSeeds& seeds)
     : count_(std::min(kListLength + 1, seeds.positions.size())) {
@@ -77,7 +93,7 @@ void FaceClipper::clipFace(FaceIndex face, std::uint32_t seed, FacePieces& out) 
     const UVec3 v = mesh_.faces[face];
     const std::size_t firstPiece = out.pieces.size();
     double covered = 0;
-    reached_.assign(1, seed);
+    reached_.reset(seed);
     for (std::size_t next = 0; next < reached_.size(); ++next) {
         polygon_ = {{mesh_.positions[v.x], {0, 0}, kNone},
                     {mesh_.positions[v.y], {1, 0}, kNone},
@@ -91,9 +107,7 @@ void FaceClipper::clipFace(FaceIndex face, std::uint32_t seed, FacePieces& out) 
             share += std::abs(a.x * b.y - a.y * b.x);
         }
         for (const Corner& corner : polygon_)
-            if (corner.across != kNone &&
-                std::find(reached_.begin(), reached_.end(), corner.across) == reached_.end())
-                reached_.push_back(corner.across);
+            if (corner.across != kNone) reached_.add(corner.across);
         if (!(share > kSmallestShare)) continue;
         covered += share;
         out.pieces.push_back({reached_[next], face, static_cast<std::uint32_t>(out.corners.size()),

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <span>
+#include <unordered_set>
 #include <vector>
 
 namespace sss {
@@ -26,6 +27,21 @@ private:
 struct FacePieces {
     std::vector<CellPiece> pieces;
     std::vector<Vec2> corners;
+};
+
+/// The points whose cells reach a face, each once, in the order in which they were found. A face
+/// may be reached by a few points or, where it is a whole side of a body, by millions.
+class ReachedPoints {
+public:
+    void reset(std::uint32_t first);
+    /// Does nothing if the point is among them.
+    void add(std::uint32_t point);
+    std::size_t size() const { return order_.size(); }
+    std::uint32_t operator[](std::size_t i) const { return order_[i]; }
+
+private:
+    std::vector<std::uint32_t> order_;
+    std::unordered_set<std::uint32_t> known_;  // empty while there are few
 };
 
 /// Cuts faces into the cells of points (see makeSurfaceCells). One a thread.
@@ -60,7 +76,7 @@ private:
     const CellSeeds& seeds_;
     const NeighbourLists& neighbours_;
     std::vector<Corner> polygon_, spare_;
-    std::vector<std::uint32_t> reached_;  // points whose cells reach the face at hand
+    ReachedPoints reached_;  // by the face at hand
 };
 
 }  // namespace sss

@@ -41,14 +41,14 @@ KernelTable::KernelTable(const std::array<const Profile*, 3>& profiles, double r
     boundDerivatives(regularised);
 }
 
-std::size_t KernelTable::rowOf(float distanceSquaredMm2) const {
-    const auto bits = std::bit_cast<std::uint32_t>(distanceSquaredMm2 + u0_);
-    const auto row = static_cast<std::int32_t>(bits >> kShift) - base_;
-    return static_cast<std::size_t>(
-        std::clamp(row, 0, static_cast<std::int32_t>(rows_.size()) - 1));
-}
-
 namespace {
+
+// The first channel with the same profile: its rows serve for both.
+std::size_t sameAs(const std::array<RegularisedProfile, 3>& profiles, std::size_t channel) {
+    std::size_t first = 0;
+    while (!profiles[first].isSameAs(profiles[channel])) ++first;
+    return first;
+}
 
 // u + u0 at position t in [0, 1] of a row.
 double edgeOf(std::int32_t absoluteRow, double t) {
@@ -88,6 +88,10 @@ void KernelTable::fitRows(const Regularised& profiles) {
         parallelFor(kBatch, 4, [&](std::size_t lo, std::size_t hi) {
             for (std::size_t i = begin + lo; i < begin + hi; ++i) {
                 for (std::size_t c = 0; c < 3; ++c) {
+                    if (const std::size_t same = sameAs(profiles, c); same < c) {
+                        for (auto& power : rows_[i].c) power[c] = power[same];
+                        continue;
+                    }
                     std::array<double, 4> values;
                     for (std::size_t k = 0; k < 4; ++k) {
                         const double u =
@@ -113,7 +117,13 @@ void KernelTable::boundDerivatives(const Regularised& profiles) {
     constexpr double kSafety = 1.05;  // between the samples of a row, 2 % apart in r
     parallelFor(rows_.size(), 8, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i)
-            for (int c = 0; c < 3; ++c)
+            for (int c = 0; c < 3; ++c) {
+                const std::size_t same = sameAs(profiles, static_cast<std::size_t>(c));
+                if (static_cast<int>(same) < c) {
+                    for (Rgb& bound : bounds_[i].derivative)
+                        bound[c] = bound[static_cast<int>(same)];
+                    continue;
+                }
                 for (int s = 0; s < kSamples; ++s) {
                     const double u = edgeOf(base_ + static_cast<std::int32_t>(i),
                                             static_cast<double>(s) / (kSamples - 1));
@@ -140,21 +150,12 @@ void KernelTable::boundDerivatives(const Regularised& profiles) {
                     for (std::size_t k = 0; k < 4; ++k)
                         out[k][c] = std::max(out[k][c], static_cast<float>(kSafety * bound[k]));
                 }
+            }
     });
     for (std::size_t i = bounds_.size() - 1; i-- > 0;)
         for (int k = 0; k < 4; ++k)
             bounds_[i].derivative[k] =
                 glm::max(bounds_[i].derivative[k], bounds_[i + 1].derivative[k]);
-}
-
-KernelTable::Place KernelTable::placeOf(float distanceSquaredMm2) const {
-    const auto bits = std::bit_cast<std::uint32_t>(distanceSquaredMm2 + u0_);
-    constexpr std::uint32_t kRows = 1u << kShift;
-    // Segments an octave over the power of two below u + u0.
-    const float scale = std::bit_cast<float>((254u << 23) - (bits & 0x7f800000u)) *
-                        static_cast<float>(1 << kSegmentBits);
-    return {&rows_[rowOf(distanceSquaredMm2)],
-            static_cast<float>(bits & (kRows - 1)) * (1.0f / static_cast<float>(kRows)), scale};
 }
 
 Rgb KernelTable::evaluate(float distanceSquaredMm2) const {

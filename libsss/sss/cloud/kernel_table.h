@@ -3,7 +3,9 @@
 #include "sss/cloud/regularised_profile.h"
 #include "sss/medium/profile.h"
 
+#include <algorithm>
 #include <array>
+#include <bit>
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -35,7 +37,8 @@ public:
     };
     static_assert(sizeof(BoundsRow) == 12 * sizeof(float));
 
-    /// `profiles` may hold the same pointer more than once. Distances up to `reachMm` matter;
+    /// `profiles` may hold the same pointer more than once: channels that share a profile are
+    /// evaluated once. Distances up to `reachMm` matter;
     /// beyond, and where a profile falls below 1e-30 of its peak, the table is 0.
     /// `cellRadiusMm` is the radius of a disk as large as a sample's cell.
     KernelTable(const std::array<const Profile*, 3>& profiles, double reachMm, double cellRadiusMm);
@@ -46,7 +49,15 @@ public:
         const Row* row;
         float t, scale;
     };
-    Place placeOf(float distanceSquaredMm2) const;
+    Place placeOf(float distanceSquaredMm2) const {
+        const auto bits = std::bit_cast<std::uint32_t>(distanceSquaredMm2 + u0_);
+        constexpr std::uint32_t kRows = 1u << kShift;
+        // Segments an octave over the power of two below u + u0.
+        const float scale = std::bit_cast<float>((254u << 23) - (bits & 0x7f800000u)) *
+                            static_cast<float>(1 << kSegmentBits);
+        return {&rows_[rowOf(distanceSquaredMm2)],
+                static_cast<float>(bits & (kRows - 1)) * (1.0f / static_cast<float>(kRows)), scale};
+    }
     const BoundsRow& boundsAt(float distanceSquaredMm2) const {
         return bounds_[rowOf(distanceSquaredMm2)];
     }
@@ -59,7 +70,12 @@ public:
     float offsetMm2() const { return u0_; }
 
 private:
-    std::size_t rowOf(float distanceSquaredMm2) const;
+    std::size_t rowOf(float distanceSquaredMm2) const {
+        const auto bits = std::bit_cast<std::uint32_t>(distanceSquaredMm2 + u0_);
+        const auto row = static_cast<std::int32_t>(bits >> kShift) - base_;
+        return static_cast<std::size_t>(
+            std::clamp(row, 0, static_cast<std::int32_t>(rows_.size()) - 1));
+    }
     using Regularised = std::array<RegularisedProfile, 3>;
     void fitRows(const Regularised& profiles);
     void boundDerivatives(const Regularised& profiles);

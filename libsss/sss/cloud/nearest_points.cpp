@@ -11,7 +11,6 @@ namespace sss {
 namespace {
 
 constexpr int kLeafSize = 8;  // fastest of 4, 8, 16 on 100,000 points
-constexpr std::size_t kBatch = 2048;
 
 flann::Matrix<float> matrixOf(std::span<const Vec3> points) {
     // FLANN takes non-const pointers but does not write to them.

@@ -18,7 +18,9 @@ public:
     NearestPoints& operator=(const NearestPoints&) = delete;
 
     /// The `count` nearest points of every query, nearest first: indices[q * count + k]. `count` is
-    /// at most the number of points. Parallel; 0.5 us (count 3) to 2.5 us (16) a query and core.
+    /// at most the number of points. Up to kBatch queries run in the calling thread. Parallel; 0.5
+    /// us (count 3) to 2.5 us (16) a query and core.
+    static constexpr std::size_t kBatch = 2048;
     void query(std::span<const Vec3> queries, std::size_t count,
                std::span<std::uint32_t> indices) const;
 

@@ -14,6 +14,8 @@ public:
     RegularisedProfile(const Profile& profile, double cellRadiusMm);
     /// mm^-2.
     double operator()(double rMm) const;
+    /// Whether it is the same profile object as the other's.
+    bool isSameAs(const RegularisedProfile& other) const { return &profile_ == &other.profile_; }
 
 private:
     double average(double rMm) const;

@@ -17,8 +17,11 @@ namespace {
 struct StageNames {
     std::string_view name, extension;
 };
-constexpr std::array<StageNames, 3> kStages{
-    {{"points", ".ssp"}, {"irradiance", ".ssi"}, {"exitance", ".sse"}}};
+constexpr std::array<StageNames, 5> kStages{{{"points", ".ssp"},
+                                             {"irradiance", ".ssi"},
+                                             {"exitance", ".sse"},
+                                             {"beams", ".ssb"},
+                                             {"shape", ".ssd"}}};
 
 const StageNames& namesOf(Stage stage) { return kStages[static_cast<std::size_t>(stage)]; }
 

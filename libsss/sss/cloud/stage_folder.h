@@ -12,14 +12,15 @@
 
 namespace sss {
 
-enum class Stage { Points, Irradiance, Exitance };
+enum class Stage { Points, Irradiance, Exitance, Beams, Correction };
 std::string_view stageName(Stage stage);
 
 /// A cache that is a folder: one file for each stage of each body, named by what the stage is and
 /// by the fingerprint of all that it was made from ("points-HASH.ssp", "irradiance-HASH.ssi",
-/// "exitance-HASH.sse"). What has that name is what is wanted, so that frames, scenes, processes
-/// and machines share it; nothing in it goes stale, and any file may be deleted at any time. Files
-/// come whole (AtomicFile) or not at all.
+/// "exitance-HASH.sse", and for diffusion on the shape "beams-HASH.ssb" and "shape-HASH.ssd"). What
+/// has that name is what is wanted, so that frames, scenes, processes and machines share it;
+/// nothing in it goes stale, and any file may be deleted at any time. Files come whole (AtomicFile)
+/// or not at all.
 class StageFolder {
 public:
     /// `create`: makes the folder if it is not there. Throws Error{Io}.

@@ -7,19 +7,22 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdio>
 #include <mutex>
+#include <string_view>
 #include <vector>
 
 namespace sss {
 
 namespace {
 
-[[noreturn]] void throwEmbree(RTCError code, const char* doing) {
-    if (code == RTC_ERROR_OUT_OF_MEMORY)
+[[noreturn]] void throwEmbree(RTCError code, const char* doing, std::string_view words = {}) {
+    // What its builders' tasks throw comes out as an unknown error; its words tell.
+    if (code == RTC_ERROR_OUT_OF_MEMORY || words == "out of memory" || words == "std::bad_alloc")
         throw Error(ErrorKind::Resource, "rays", fmt::format("out of memory while {}", doing),
                     "use coarser meshes or a machine with more memory");
     throw Error(ErrorKind::Internal, "rays",
-                fmt::format("Embree error {} while {}", static_cast<int>(code), doing));
+                fmt::format("Embree error {} ({}) while {}", static_cast<int>(code), words, doing));
 }
 
 /// The process's Embree device: made for the first scene, released with the last.
@@ -31,6 +34,7 @@ public:
         // the machine's core count would otherwise show in the picture.
         handle_ = rtcNewDevice("threads=8,start_threads=0,set_affinity=0");
         if (!handle_) throwEmbree(rtcGetDeviceError(nullptr), "starting");
+        rtcSetDeviceErrorFunction(handle_, keepWords, this);
     }
     ~Device() { rtcReleaseDevice(handle_); }
     Device(const Device&) = delete;
@@ -38,10 +42,16 @@ public:
     RTCDevice get() const { return handle_; }
     void check(const char* doing) const {
         const RTCError code = rtcGetDeviceError(handle_);
-        if (code != RTC_ERROR_NONE) throwEmbree(code, doing);
+        if (code != RTC_ERROR_NONE) throwEmbree(code, doing, words_.data());
     }
 
 private:
+    static void keepWords(void* device, RTCError, const char* words) {
+        auto& kept = static_cast<Device*>(device)->words_;
+        std::snprintf(kept.data(), kept.size(), "%s", words ? words : "");
+    }
+
+    std::array<char, 200> words_{};  // of the latest error; no allocation, as memory may be out
     RTCDevice handle_ = nullptr;
 };
 

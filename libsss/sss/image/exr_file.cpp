@@ -2,6 +2,7 @@
 
 #include "sss/base/atomic_file.h"
 #include "sss/base/error.h"
+#include "sss/image/exr_header.h"
 
 #include <ImathBox.h>
 #include <ImfChannelList.h>
@@ -139,17 +140,6 @@ Imf::Header makeHeader(const LayeredImage& image, const Imf::ChannelList& channe
     throw Error(ErrorKind::BadInput, path.string(), what, hint);
 }
 
-void requireExr(const std::filesystem::path& path) {
-    std::ifstream file(path, std::ios::binary);
-    if (!file || std::filesystem::is_directory(path))
-        throw Error(ErrorKind::Io, path.string(), "cannot open the picture",
-                    "check the path; it is relative to the scene file");
-    std::array<char, 4> magic{};
-    file.read(magic.data(), 4);
-    if (file.gcount() != 4 || std::string_view(magic.data(), 4) != "\x76\x2f\x31\x01")
-        refuse(path, "is not an OpenEXR picture", "convert it to OpenEXR");
-}
-
 /// "R", "G", "B", "A" and "X", "Y", "Z" in that order, then everything else by name.
 std::size_t channelRank(const std::string& channel) {
     constexpr std::string_view kOrder = "RGBAXYZ";
@@ -174,16 +164,16 @@ ChannelPlace placeOf(const std::string& fullName) {
     return {kColours.contains(fullName) ? "" : fullName, fullName};
 }
 
-void requirePlausible(const std::filesystem::path& path, const LayeredImage& image,
-                      std::size_t channelCount) {
-    const std::string size =
-        fmt::format("{} x {} pixels with {} channels", image.width, image.height, channelCount);
-    if (channelCount == 0) refuse(path, "holds no channels");
-    if (image.width > kMaximumSide || image.height > kMaximumSide ||
-        image.pixelCount() > kMaximumValues / channelCount)
+void requirePlausible(const std::filesystem::path& path, const ExrHeader& header) {
+    const std::string size = fmt::format("{} x {} pixels with {} channels", header.width,
+                                         header.height, header.channels);
+    const std::size_t pixels =
+        static_cast<std::size_t>(header.width) * static_cast<std::size_t>(header.height);
+    if (header.width > kMaximumSide || header.height > kMaximumSide ||
+        pixels > kMaximumValues / header.channels)
         refuse(path, fmt::format("states {}, more than is read here", size), "scale it down");
     const std::size_t fileSize = std::filesystem::file_size(path);
-    if (image.pixelCount() * channelCount / kMaximumValuesPerByte > fileSize)
+    if (pixels * header.channels / kMaximumValuesPerByte > fileSize)
         refuse(path, fmt::format("states {} in only {} bytes: it is damaged", size, fileSize));
 }
 
@@ -192,8 +182,7 @@ LayeredImage emptyImageFor(const std::filesystem::path& path, const Imf::Header&
     LayeredImage image;
     image.width = window.max.x - window.min.x + 1;
     image.height = window.max.y - window.min.y + 1;
-    std::size_t channelCount = 0;
-    for (auto c = header.channels().begin(); c != header.channels().end(); ++c, ++channelCount) {
+    for (auto c = header.channels().begin(); c != header.channels().end(); ++c) {
         if (c.channel().xSampling != 1 || c.channel().ySampling != 1)
             refuse(path, fmt::format("channel {} is subsampled", c.name()), "save it as plain RGB");
         const ChannelPlace place = placeOf(c.name());
@@ -201,7 +190,6 @@ LayeredImage emptyImageFor(const std::filesystem::path& path, const Imf::Header&
         layer.channels.push_back(place.channel);
         layer.fullPrecision |= c.channel().type != Imf::HALF;
     }
-    requirePlausible(path, image, channelCount);
     for (ImageLayer& layer : image.layers) {
         std::stable_sort(layer.channels.begin(), layer.channels.end(),
                          [](const std::string& a, const std::string& b) {
@@ -279,10 +267,10 @@ void writeExr(const std::filesystem::path& path, const LayeredImage& image,
 }
 
 LayeredImage readExr(const std::filesystem::path& path) {
-    requireExr(path);
+    requirePlausible(path, checkExrHeaders(path));
     try {
-        // A process-wide limit of OpenEXR, always set to the same value: refuses before it
-        // allocates its line buffers.
+        // A process-wide limit of OpenEXR, always set to the same value: for the parts that are not
+        // read.
         Imf::Header::setMaxImageSize(kMaximumSide, kMaximumSide);
         Imf::InputFile exr(path.c_str());
         LayeredImage image = emptyImageFor(path, exr.header());

@@ -13,13 +13,17 @@ struct BodyCloud {
     std::vector<Rgb> irradiance;
     std::vector<OctreeNode> nodes;
     double spacingMm = 0;
+    /// By point: exitance by diffusion on the body's own shape less that by the profile; empty
+    /// where the profile is all.
+    std::vector<Rgb> correction;
 
     struct View {
         CloudView cloud;
         std::span<const OctreeNode> nodes;
         double spacingMm = 0;
+        std::span<const Rgb> correction;
     };
-    View view() const { return {{points, irradiance}, nodes, spacingMm}; }
+    View view() const { return {{points, irradiance}, nodes, spacingMm, correction}; }
 };
 
 }  // namespace sss

@@ -21,6 +21,9 @@ BodyField::BodyField(const Body& body, const BodyOptics& optics, const BodyCloud
     : table_(optics.profilePointers(), body.mesh.bounds().diagonal() * 1.01,
              cloud.spacingMm / std::sqrt(kPi)),
       sum_(cloud.cloud, cloud.nodes, table_),
-      field_(body.mesh, sum_, segmentLength(body, optics), tolerance) {}
+      correction_(cloud.correction.empty()
+                      ? nullptr
+                      : std::make_unique<PointInterpolator>(cloud.cloud.points, cloud.correction)),
+      field_(body.mesh, sum_, segmentLength(body, optics), tolerance, correction_.get()) {}
 
 }  // namespace sss

@@ -5,9 +5,12 @@
 #include "sss/integrate/body_cloud.h"
 #include "sss/integrate/body_optics.h"
 
+#include <memory>
+
 namespace sss {
 
-/// The radiant exitance of one body, ready to be looked up: the sum over its cloud by its profile.
+/// The radiant exitance of one body, ready to be looked up: the sum over its cloud by its profile,
+/// and what the body's shape changes about that.
 class BodyField {
 public:
     /// All must outlive the field.
@@ -16,7 +19,7 @@ public:
     BodyField(const BodyField&) = delete;
     BodyField& operator=(const BodyField&) = delete;
 
-    /// M at a place of the body's surface, W m^-2, by the profile alone (not scaled).
+    /// M at a place of the body's surface, W m^-2 (not scaled).
     Rgb exitance(FaceIndex face, const Vec2& barycentrics) const {
         return field_.at(face, barycentrics);
     }
@@ -28,6 +31,7 @@ public:
 private:
     KernelTable table_;
     DiffusionSum sum_;
+    std::unique_ptr<PointInterpolator> correction_;
     ExitanceField field_;
 };
 

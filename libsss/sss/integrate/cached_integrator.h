@@ -8,7 +8,7 @@ namespace sss {
 class CachedIntegrator : public Integrator {
 public:
     explicit CachedIntegrator(const IntegratorInput& input)
-        : exitance_(input.fields), tracer_(input.world, input.optics, &exitance_) {}
+        : exitance_(input), tracer_(input.world, input.optics, &exitance_) {}
     FilmSample trace(const Ray& ray, Sampler& sampler, PathCounts& counts) const override {
         return tracer_.trace(ray, sampler, counts);
     }

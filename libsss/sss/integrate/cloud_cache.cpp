@@ -1,6 +1,7 @@
 #include "sss/integrate/cloud_cache.h"
 
 #include "sss/base/error.h"
+#include "sss/cloud/octree_check.h"
 #include "sss/integrate/scene_fingerprint.h"
 
 #include <fmt/core.h>
@@ -54,9 +55,10 @@ void writeCloudCache(const std::filesystem::path& path, const World& world,
 
 CloudCache::CloudCache(const std::filesystem::path& path, const World& world,
                        std::span<const std::unique_ptr<BodyOptics>> optics)
-    : CloudCache(path, world, worldInputs(world, optics)) {}
+    : CloudCache(path, world, optics, worldInputs(world, optics)) {}
 
 CloudCache::CloudCache(const std::filesystem::path& path, const World& world,
+                       std::span<const std::unique_ptr<BodyOptics>> optics,
                        std::span<const BodyInputs> worldInputs)
     : file_(CacheFile::open(path)) {
     const std::string where = path.string();
@@ -68,13 +70,17 @@ CloudCache::CloudCache(const std::filesystem::path& path, const World& world,
     for (std::uint32_t b = 0; b < bodies.size(); ++b) {
         const JsonValue& hashes = metaMember(bodies[b], "inputs", where);
         for (const InputFingerprint& input : worldInputs[b]) {
-            const JsonValue& stored = metaMember(hashes, input.key, where);
-            if (!stored.isString() || stored.asString() != input.value.hex())
+            const JsonMember* stored = hashes.isObject() ? hashes.find(input.key) : nullptr;
+            if (!stored || !stored->value.isString() ||
+                stored->value.asString() != input.value.hex())
                 refuse(where, fmt::format("for object \"{}\", {}", world.bodies()[b].name,
                                           input.sentence));
         }
-        reports_.push_back(reportOf(bodies[b], where));
-        views_.push_back(cloudOf(file_, b, reports_.back().spacingMm));
+        const BodyReport& report = reports_.emplace_back(reportOf(bodies[b], where));
+        BodyCloud::View& view = views_.emplace_back(cloudOf(file_, b, report.spacingMm));
+        if (!optics[b]->onShape) continue;
+        view.correction = correctionOf(file_, b, view.cloud.points.size());
+        optics[b]->lookThroughIf(report.unscatteredShare, world.scene().quality.tolerance);
     }
 }
 

@@ -29,8 +29,11 @@ class CloudCache {
 public:
     /// Opens a cache made for this world. Throws Error{BadInput} with the reason if it was made for
     /// another, Error{Io} if it cannot be read.
+    /// Tells the optics of bodies with a shape whether they are seen through.
     CloudCache(const std::filesystem::path& path, const World& world,
+               std::span<const std::unique_ptr<BodyOptics>> optics,
                std::span<const BodyInputs> worldInputs);
+    /// The same with worldInputs().
     CloudCache(const std::filesystem::path& path, const World& world,
                std::span<const std::unique_ptr<BodyOptics>> optics);
     const BodyCloud::View& view(std::size_t body) const { return views_[body]; }

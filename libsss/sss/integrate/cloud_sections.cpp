@@ -1,6 +1,7 @@
 #include "sss/integrate/cloud_sections.h"
 
 #include "sss/base/error.h"
+#include "sss/cloud/octree_check.h"
 
 #include <fmt/core.h>
 
@@ -9,7 +10,8 @@ namespace {
 
 constexpr std::string_view kPoints = "points", kIrradiance = "irrad", kOctree = "octree",
                            kMeta = "meta", kPieces = "pieces", kCorners = "corners",
-                           kFirstPiece = "first";
+                           kFirstPiece = "first", kShape = "shape", kBeams = "beams";
+constexpr const char* kUnscattered = "unscatteredShare";
 
 JsonValue list(const DRgb& v) {
     JsonValue array = JsonValue::array();
@@ -19,19 +21,6 @@ JsonValue list(const DRgb& v) {
 
 [[noreturn]] void refuse(const CacheFile& file, const std::string& what) {
     throw Error(ErrorKind::BadInput, file.path().string(), what, "run sss-preprocess again");
-}
-
-void requireSoundTree(const CacheFile& file, std::uint32_t body) {
-    const auto points = file.section<SurfacePoint>(kPoints, body);
-    const auto irradiance = file.section<Rgb>(kIrradiance, body);
-    const auto nodes = file.section<OctreeNode>(kOctree, body);
-    bool sound = irradiance.size() == points.size() && (points.empty() == nodes.empty());
-    for (std::size_t n = 0; n < nodes.size() && sound; ++n) {
-        const std::uint64_t end = std::uint64_t{nodes[n].first} + nodes[n].size();
-        sound =
-            nodes[n].isLeaf() ? end <= points.size() : nodes[n].first > n && end <= nodes.size();
-    }
-    if (!sound) refuse(file, fmt::format("the octree of body {} does not fit its points", body));
 }
 
 bool areSound(const SurfaceSamples& samples, std::size_t faces) {
@@ -68,13 +57,39 @@ void addCloud(CacheWriter& writer, std::uint32_t b, const BodyInputs& inputs,
     writer.add<SurfacePoint>(kPoints, b, pointsFingerprint(inputs), cloud.cloud.points);
     writer.add<Rgb>(kIrradiance, b, light, cloud.cloud.irradiance);
     writer.add<OctreeNode>(kOctree, b, light, cloud.nodes);
+    if (!cloud.correction.empty()) addCorrection(writer, b, inputs, cloud.correction);
 }
 
 BodyCloud::View cloudOf(const CacheFile& file, std::uint32_t b, double spacingMm) {
-    requireSoundTree(file, b);
-    return {{file.section<SurfacePoint>(kPoints, b), file.section<Rgb>(kIrradiance, b)},
-            file.section<OctreeNode>(kOctree, b),
-            spacingMm};
+    const CloudView cloud{file.section<SurfacePoint>(kPoints, b),
+                          file.section<Rgb>(kIrradiance, b)};
+    const auto nodes = file.section<OctreeNode>(kOctree, b);
+    if (!isSound(cloud, nodes))
+        refuse(file, fmt::format("the octree of body {} does not fit its points", b));
+    return {cloud, nodes, spacingMm, {}};
+}
+
+void addCorrection(CacheWriter& writer, std::uint32_t b, const BodyInputs& inputs,
+                   std::span<const Rgb> correction) {
+    writer.add<Rgb>(kShape, b, shapeFingerprint(inputs), correction);
+}
+
+std::span<const Rgb> correctionOf(const CacheFile& file, std::uint32_t b, std::size_t points) {
+    const auto correction = file.section<Rgb>(kShape, b);
+    if (correction.size() != points)
+        refuse(file, fmt::format("the correction of body {} does not fit its points", b));
+    return correction;
+}
+
+void addBeams(CacheWriter& writer, const BodyInputs& inputs, const EnteredBeams& beams) {
+    writer.add<std::uint32_t>(kBeams, 0, lightFingerprint(inputs), beams.directions);
+}
+
+EnteredBeams beamsOf(const CacheFile& file, std::size_t points) {
+    EnteredBeams beams{copyOf<std::uint32_t>(file, kBeams)};
+    if (beams.directions.size() != points * EnteredBeams::kPerPoint)
+        refuse(file, "its beams do not fit its points");
+    return beams;
 }
 
 void addSamples(CacheWriter& writer, const BodyInputs& inputs, const SurfaceSamples& samples) {
@@ -116,6 +131,7 @@ JsonValue describeBody(const World& world, int index, const BodyReport& report,
         .set("irradianceSamples", report.irradianceSamples)
         .set("irradianceNoise", report.irradianceNoise)
         .set("inputs", std::move(hashes));
+    if (report.unscatteredShare) json.set(kUnscattered, *report.unscatteredShare);
     return json;
 }
 
@@ -130,6 +146,8 @@ BodyReport reportOf(const JsonValue& described, const std::string& where) {
     report.expectedQuadratureError = numberIn(described, "expectedQuadratureError", where);
     report.irradianceSamples = static_cast<int>(numberIn(described, "irradianceSamples", where));
     report.irradianceNoise = numberIn(described, "irradianceNoise", where);
+    if (described.find(kUnscattered) != nullptr)
+        report.unscatteredShare = numberIn(described, kUnscattered, where);
     return report;
 }
 

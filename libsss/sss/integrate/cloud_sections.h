@@ -10,12 +10,20 @@ namespace sss {
 // What cache files say of a body, section by section: in one file for all bodies (cloud_cache.h) or
 // in a file for each stage (stage_files.h).
 
-/// Points, irradiance and octree as sections of body number `b`.
+/// Points, irradiance, octree and (if there is any) correction as sections of body number `b`.
 void addCloud(CacheWriter& writer, std::uint32_t b, const BodyInputs& inputs,
               const BodyCloud::View& cloud);
 /// The same as they lie in the file. Throws Error{BadInput} if they do not fit each other: then
 /// some other program wrote them, for the checksums hold.
 BodyCloud::View cloudOf(const CacheFile& file, std::uint32_t b, double spacingMm);
+/// The correction of body `b` with its shape, for as many points. Throws Error{BadInput} as above.
+std::span<const Rgb> correctionOf(const CacheFile& file, std::uint32_t b, std::size_t points);
+void addCorrection(CacheWriter& writer, std::uint32_t b, const BodyInputs& inputs,
+                   std::span<const Rgb> correction);
+
+/// Beams by point.
+void addBeams(CacheWriter& writer, const BodyInputs& inputs, const EnteredBeams& beams);
+EnteredBeams beamsOf(const CacheFile& file, std::size_t points);
 
 /// Points and their cells, from which light is gathered.
 void addSamples(CacheWriter& writer, const BodyInputs& inputs, const SurfaceSamples& samples);

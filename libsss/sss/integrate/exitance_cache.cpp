@@ -13,11 +13,25 @@ namespace {
 constexpr std::string_view kGroups = "exgroups", kSegments = "exsegms", kSites = "exsites",
                            kValues = "exvalues";
 
+ExitanceStore::View storeOf(const CacheFile& cache, std::uint32_t body) {
+    return {cache.section<ExitanceStore::Entry>(kGroups, body),
+            cache.section<std::uint8_t>(kSegments, body),
+            cache.section<std::uint16_t>(kSites, body), cache.section<Rgb>(kValues, body)};
+}
+
+void write(CacheWriter& writer, std::uint32_t body, const Fingerprint& made,
+           const ExitanceStore::View& store) {
+    writer.add<ExitanceStore::Entry>(kGroups, body, made, store.entries);
+    writer.add<std::uint8_t>(kSegments, body, made, store.segments);
+    writer.add<std::uint16_t>(kSites, body, made, store.siteOf);
+    writer.add<Rgb>(kValues, body, made, store.values);
+}
+
 }  // namespace
 
 Fingerprint exitanceFingerprint(const World& world, int body, const BodyInputs& inputs) {
     Hasher hasher;
-    hasher.add(lightFingerprint(inputs)).add(exitanceInput(world, body).value);
+    hasher.add(shapeFingerprint(inputs)).add(exitanceInput(world, body).value);
     return hasher.finish();
 }
 
@@ -35,15 +49,12 @@ std::uint64_t ExitanceCache::adopt(std::span<const std::unique_ptr<BodyField>> f
     const CacheFile cache = CacheFile::open(file_);
     for (std::uint32_t b = 0; b < fields.size(); ++b) {
         const SectionInfo* found = cache.find(kGroups, b);
-        if (!found || found->fingerprint != fingerprints_[b]) continue;
-        const ExitanceStore::View store{cache.section<ExitanceStore::Entry>(kGroups, b),
-                                        cache.section<std::uint8_t>(kSegments, b),
-                                        cache.section<std::uint16_t>(kSites, b),
-                                        cache.section<Rgb>(kValues, b)};
-        const bool isWhole = forEachGroup(store, [&](std::uint32_t index, ExitanceGroup group) {
-            adopted += fields[b]->field().adopt(index, std::move(group));
-            return true;
-        });
+        if (!fields[b] || !found || found->fingerprint != fingerprints_[b]) continue;
+        const bool isWhole =
+            forEachGroup(storeOf(cache, b), [&](std::uint32_t index, ExitanceGroup group) {
+                adopted += fields[b]->field().adopt(index, std::move(group));
+                return true;
+            });
         if (!isWhole)
             throw Error(ErrorKind::BadInput, file_.string(),
                         fmt::format("the exitance of body {} does not fit together", b));
@@ -63,10 +74,12 @@ std::uint64_t ExitanceCache::load(std::span<const std::unique_ptr<BodyField>> fi
 
 void ExitanceCache::save(std::span<const std::unique_ptr<BodyField>> fields, Reporter& reporter) {
     std::uint64_t computed = 0;
-    for (const auto& field : fields) computed += field->counts().groups;
+    for (const auto& field : fields) computed += field ? field->counts().groups : 0;
     if (computed == 0) return;
+    std::optional<CacheFile> old;
     try {
         adopt(fields);  // what others have added meanwhile
+        if (std::filesystem::exists(file_)) old = CacheFile::open(file_);
     } catch (const Error&) {
         // Damaged: load() has said so, and it is replaced now.
     }
@@ -74,13 +87,14 @@ void ExitanceCache::save(std::span<const std::unique_ptr<BodyField>> fields, Rep
         CacheWriter writer(file_);
         for (std::uint32_t b = 0; b < fields.size(); ++b) {
             ExitanceStore store;
-            fields[b]->field().forEachGroup(
-                [&](std::uint32_t index, const ExitanceGroup& group) { store.add(index, group); });
-            const Fingerprint& made = fingerprints_[b];
-            writer.add<ExitanceStore::Entry>(kGroups, b, made, store.entries);
-            writer.add<std::uint8_t>(kSegments, b, made, store.segments);
-            writer.add<std::uint16_t>(kSites, b, made, store.siteOf);
-            writer.add<Rgb>(kValues, b, made, store.values);
+            const SectionInfo* found = old ? old->find(kGroups, b) : nullptr;
+            if (fields[b]) {
+                fields[b]->field().forEachGroup(
+                    [&](std::uint32_t index, const ExitanceGroup& g) { store.add(index, g); });
+                write(writer, b, fingerprints_[b], store.view());
+            } else if (found) {
+                write(writer, b, found->fingerprint, storeOf(*old, b));  // for other cameras
+            }
         }
         writer.commit();
     } catch (const Error& error) {

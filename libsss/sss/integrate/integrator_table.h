@@ -12,7 +12,8 @@ namespace sss {
 struct IntegratorInput {
     const World& world;
     std::span<const std::unique_ptr<BodyOptics>> optics;  ///< by body
-    std::span<const std::unique_ptr<BodyField>> fields;   ///< by body; empty unless needsFields
+    std::span<const std::unique_ptr<BodyField>>
+        fields;  ///< by body; empty unless needsFields, null for bodies in their diffuse limit
 };
 
 /// One row of the table of integrators.

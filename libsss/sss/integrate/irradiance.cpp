@@ -43,12 +43,15 @@ int irradianceSamplesFor(const QualitySettings& quality) {
 }
 
 IrradianceResult computeIrradiance(const World& world, int body, const SurfaceSamples& samples,
-                                   const PathTracer& tracer, Reporter& reporter) {
+                                   const PathTracer& tracer, Reporter& reporter, bool wantsBeams) {
     IrradianceResult result;
     result.irradiance.assign(samples.size(), Rgb(0));
     const TranslucentMaterial& material =
         world.materialOf(world.bodies()[static_cast<std::size_t>(body)]);
-    const IrradianceEstimator estimator(world, tracer, static_cast<float>(material.medium.eta));
+    const auto eta = static_cast<float>(material.medium.eta);
+    const IrradianceEstimator estimator(world, tracer, eta);
+    const RigidTransform& place = world.bodies()[static_cast<std::size_t>(body)].worldFromBody;
+    if (wantsBeams) result.beams.directions.resize(samples.size() * EnteredBeams::kPerPoint);
 
     const QualitySettings& quality = world.scene().quality;
     result.samplesPerPoint = irradianceSamplesFor(quality);
@@ -62,19 +65,25 @@ IrradianceResult computeIrradiance(const World& world, int body, const SurfaceSa
     parallelFor(samples.size(), kGrain, [&](std::size_t begin, std::size_t end) {
         PathCounts counts;
         std::uint64_t dropped = 0;
+        BeamPicker picker(eta, place);
         for (std::size_t p = begin; p < end; ++p) {
             PointSum sum;
+            picker.clear();
             for (std::uint32_t k = 0; k < n; ++k) {
                 // One low-discrepancy sequence for all points in their order along the Z-curve.
                 Sampler sampler(seed, static_cast<std::uint32_t>(p) * n + k);
-                const SurfacePlace place = samples.cells.placeIn(p, sampler.next2D());
-                const SurfaceHit hit = world.surfaceOf(body, place.face, place.barycentrics);
-                const Rgb e = estimator.estimate(hit, sampler, counts);
-                if (isFinite(e))
-                    sum.add(e);
-                else
+                const SurfacePlace spot = samples.cells.placeIn(p, sampler.next2D());
+                const SurfaceHit hit = world.surfaceOf(body, spot.face, spot.barycentrics);
+                const auto light = estimator.arrivals(hit, sampler, counts);
+                const Rgb e = light.direct.irradiance + light.scattered.irradiance;
+                if (!isFinite(e)) {
                     ++dropped;
+                    continue;
+                }
+                sum.add(e);
+                if (wantsBeams) picker.add(hit, light);
             }
+            if (wantsBeams) picker.pick(result.beams.of(p));
             result.irradiance[p] = sum.mean();
             variances[p] = sum.variance();
         }

@@ -1,6 +1,7 @@
 #pragma once
 #include "sss/base/reporter.h"
 #include "sss/cloud/surface_sampler.h"
+#include "sss/integrate/entered_beams.h"
 #include "sss/integrate/path_tracer.h"
 
 #include <vector>
@@ -13,6 +14,7 @@ struct IrradianceResult {
     /// RMS over the points of the standard error of a point's irradiance, relative to the mean
     /// irradiance: from the spread of its samples as if they were independent, so an upper bound.
     double pointNoise = 0;
+    EnteredBeams beams;           ///< if they were asked for
     std::uint64_t nonFinite = 0;  ///< samples dropped as NaN or infinite
     PathCounts counts;
 };
@@ -28,8 +30,11 @@ struct IrradianceResult {
 /// default spacing), and neighbours share one stratified sequence, so few samples a point are
 /// enough. The same number everywhere: giving dark and half-shadowed cells more, for the same sum
 /// of samples, was measured to be worse, since what a receiver lacks is the noise of the bright.
+///
+/// `wantsBeams`: also which way the light goes on inside.
 IrradianceResult computeIrradiance(const World& world, int body, const SurfaceSamples& samples,
-                                   const PathTracer& tracer, Reporter& reporter);
+                                   const PathTracer& tracer, Reporter& reporter,
+                                   bool wantsBeams = false);
 
 /// Samples a point gets: the scene's own number, or by tolerance.
 int irradianceSamplesFor(const QualitySettings& quality);

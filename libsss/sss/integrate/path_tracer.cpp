@@ -4,6 +4,7 @@
 #include "sss/base/inline_vector.h"
 #include "sss/integrate/arriving_light.h"
 #include "sss/integrate/first_hit.h"
+#include "sss/integrate/look_through.h"
 #include "sss/integrate/single_scatter.h"
 
 #include <algorithm>
@@ -27,6 +28,7 @@ void PathCounts::add(const PathCounts& other) {
     rays += other.rays;
     diffusionLookups += other.diffusionLookups;
     singleSamples += other.singleSamples;
+    singleSkipped += other.singleSkipped;
     scatterings += other.scatterings;
     leaks += other.leaks;
     lost += other.lost;
@@ -103,19 +105,34 @@ Rgb PathTracer::diffusion(const SurfaceHit& hit, const Bsdf& bsdf, Sampler& samp
            optics.radiancePerExitance(bsdf.cosOutgoing());
 }
 
-Rgb PathTracer::single(const SurfaceHit& hit, const Bsdf& bsdf, const Vec3& wo, int bounces,
-                       Sampler& sampler, PathCounts& counts) const {
+Rgb PathTracer::singleScatteringAt(const SurfaceHit& hit, const Vec3& wo, const Vec3& normal,
+                                   Sampler& sampler, PathCounts& counts) const {
+    const BodyOptics& optics = *optics_[static_cast<std::size_t>(hit.body)];
+    if (!mayScatterOnce(world_, optics, hit.position)) {
+        ++counts.singleSkipped;
+        return Rgb(0);
+    }
     SingleScatterCounts spent;
+    const int bounces = std::min(world_.scene().quality.bounces, 1);
     const Rgb radiance = singleScattering(
-        world_, *optics_[static_cast<std::size_t>(hit.body)], hit, wo, bsdf.shadingNormal(),
-        sampler,
+        world_, optics, hit, wo, normal, sampler,
         [&](const Ray& ray, const Vec3& from, float pdf) {
-            return incoming(ray, {from, pdf}, std::min(bounces, 1), sampler, counts);
+            return incoming(ray, {from, pdf}, bounces, sampler, counts);
         },
         spent);
     counts.singleSamples += spent.samples;
     counts.rays += spent.rays;
     return radiance;
+}
+
+Rgb PathTracer::behind(const SurfaceHit& hit, const Vec3& wo, Sampler& sampler,
+                       PathCounts& counts) const {
+    Sampler side = sampler.branch();
+    const auto seen = lookThrough(world_, *optics_[static_cast<std::size_t>(hit.body)], hit, wo,
+                                  side, counts.rays);
+    if (!seen) return Rgb(0);
+    const int bounces = std::max(1, world_.scene().quality.bounces);
+    return seen->weight * incoming(seen->beyond, {}, bounces, side, counts);
 }
 
 bool PathTracer::scatter(const SurfaceHit& hit, const Bsdf& bsdf, Sampler& sampler, Ray& ray,
@@ -158,10 +175,12 @@ Rgb PathTracer::followed(Ray ray, ScatterOrigin origin, int bounces, Sampler& sa
         Bsdf bsdf = bsdfAt(hit, wo);
         isWide = isWide || origin.pdf < kWideLobe;
         if (isWide) bsdf.roughenForIndirect();
-        // Seen at second hand, all that comes from within is taken from the diffusion, unscaled:
-        // the profile's total has the light scattered once in it.
-        const Rgb direct = directLight(hit, bsdf, sampler, counts);
-        sum += throughput * (direct + diffusion(hit, bsdf, sampler, counts));
+        sum += throughput * directLight(hit, bsdf, sampler, counts);
+        // Seen at second hand, all that comes from within is taken from the diffusion: the
+        // profile's total has the light scattered once in it.
+        if (hit.body >= 0)
+            sum += throughput * diffusion(hit, bsdf, sampler, counts) *
+                   optics_[static_cast<std::size_t>(hit.body)]->indirectScale;
         if (!scatter(hit, bsdf, sampler, ray, origin, throughput)) return sum;
         if (depth + 1 >= kRouletteDepth) {
             const float survival = std::min(0.95f, maxComponent(throughput));
@@ -187,8 +206,10 @@ void PathTracer::shade(const FirstSurface& surface, const Ray& ray, Sampler& sam
         const BodyOptics& optics = *optics_[static_cast<std::size_t>(hit.body)];
         seen.diffusion = diffusion(hit, bsdf, sampler, counts) * optics.multipleScale;
         if (optics.material.singleScattering && sampler.next1D() < optics.singleProbability)
-            seen.single = single(hit, bsdf, -ray.direction, bounces, sampler, counts) /
-                          optics.singleProbability;
+            seen.single =
+                singleScatteringAt(hit, -ray.direction, bsdf.shadingNormal(), sampler, counts) /
+                optics.singleProbability;
+        if (optics.seesThrough) reflected += behind(hit, -ray.direction, sampler, counts);
     }
     Ray next;
     ScatterOrigin origin;

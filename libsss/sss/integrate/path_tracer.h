@@ -19,9 +19,10 @@ struct PathCounts {
     std::uint64_t rays = 0;  ///< of all kinds
     std::uint64_t diffusionLookups = 0;
     std::uint64_t singleSamples = 0;
-    std::uint64_t scatterings = 0;  ///< inside bodies, one by one (radiative transfer)
-    std::uint64_t leaks = 0;        ///< times a path met its body's surface where none should be
-    std::uint64_t lost = 0;         ///< paths that did not end
+    std::uint64_t singleSkipped = 0;  ///< for want of light within reach
+    std::uint64_t scatterings = 0;    ///< inside bodies, one by one (radiative transfer)
+    std::uint64_t leaks = 0;          ///< times a path met its body's surface where none should be
+    std::uint64_t lost = 0;           ///< paths that did not end
     std::uint64_t volumeStretches = 0;  ///< of paths, looked at for volumes; 0 without volumes
 
     void add(const PathCounts& other);
@@ -61,6 +62,10 @@ public:
         return followed(ray, origin, bounces, sampler, counts);
     }
 
+    /// An estimate of the radiance that leaves a body towards `wo` after one scattering inside it.
+    Rgb singleScatteringAt(const SurfaceHit& hit, const Vec3& wo, const Vec3& normal,
+                           Sampler& sampler, PathCounts& counts) const;
+
     /// Light that reaches a surface straight from a light and is scattered there, by light
     /// sampling, weighted against sampling the BSDF.
     Rgb directLight(const SurfaceHit& hit, const Bsdf& bsdf, Sampler& sampler,
@@ -69,8 +74,8 @@ public:
 private:
     Rgb diffusion(const SurfaceHit& hit, const Bsdf& bsdf, Sampler& sampler,
                   PathCounts& counts) const;
-    Rgb single(const SurfaceHit& hit, const Bsdf& bsdf, const Vec3& wo, int bounces,
-               Sampler& sampler, PathCounts& counts) const;
+    /// What is seen through a body.
+    Rgb behind(const SurfaceHit& hit, const Vec3& wo, Sampler& sampler, PathCounts& counts) const;
     /// The same through surfaces.
     Rgb followed(Ray ray, ScatterOrigin origin, int bounces, Sampler& sampler,
                  PathCounts& counts) const;

@@ -2,17 +2,31 @@
 
 #include "sss/base/error.h"
 #include "sss/cloud/surface_sampler.h"
+#include "sss/integrate/integrator_table.h"
 #include "sss/integrate/irradiance.h"
+#include "sss/integrate/single_exitance.h"
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace sss {
+namespace {
+
+// Single scattering's exitance is smoothed between points and is a small part of what leaves.
+constexpr int kLightPerSingleSample = 2;
+
+}  // namespace
+
 std::vector<std::unique_ptr<BodyOptics>> makeBodyOptics(const World& world) {
     std::vector<std::unique_ptr<BodyOptics>> optics;
-    for (const Body& body : world.bodies())
-        optics.push_back(std::make_unique<BodyOptics>(world.materialOf(body)));
+    const bool usesFields = integratorOf(world.scene()).needsFields;
+    for (const Body& body : world.bodies()) {
+        const TranslucentMaterial& material = world.materialOf(body);
+        optics.push_back(
+            std::make_unique<BodyOptics>(material, material.onShape && body.closed && usesFields));
+    }
     return optics;
 }
 
@@ -24,6 +38,13 @@ double pointSpacingMm(const World& world, const Body& body, const BodyOptics& op
     if (finest > 0) return finest;
     const double spacing = spacingFor(optics, quality.tolerance).spacingMm;
     return std::isfinite(spacing) ? spacing : body.mesh.bounds().diagonal();
+}
+
+std::size_t expectedPoints(const World& world, const Body& body, const BodyOptics& optics,
+                           const TriangleMesh* placedOn) {
+    SamplerOptions options;
+    options.spacingMm = pointSpacingMm(world, body, optics);
+    return expectedPointCount((placedOn != nullptr ? *placedOn : body.mesh).area(), options);
 }
 
 void describePoints(const Body& body, const BodyOptics& optics, std::size_t points,
@@ -43,13 +64,22 @@ SurfaceSamples placePoints(const World& world, int bodyIndex, const BodyOptics& 
     SamplerOptions options;
     options.spacingMm = pointSpacingMm(world, body, optics);
     options.seed = world.scene().quality.seed;
-    const std::size_t expected = expectedPointCount(mesh.area(), options);
+    const std::size_t expected = expectedPoints(world, body, optics, placedOn);
     if (expected > limits.mostPoints)
         throw Error(ErrorKind::Resource, body.name,
                     fmt::format("would need {} points at a spacing of {:.4g} mm; the limit is {}",
                                 expected, options.spacingMm, limits.mostPoints),
                     "check the scale of the scene (metersPerUnit), raise the tolerance, set "
                     "--spacing, or raise --max-points");
+    if (expected > limits.mostBytes / kBytesPerPoint)
+        throw Error(ErrorKind::Resource, body.name,
+                    fmt::format("would need {} points at a spacing of {:.4g} mm and {:.3g} GB of "
+                                "memory for them; there are {:.3g} GB",
+                                expected, options.spacingMm,
+                                1e-9 * static_cast<double>(expected * kBytesPerPoint),
+                                1e-9 * static_cast<double>(limits.mostBytes)),
+                    "check the scale of the scene (metersPerUnit), raise the tolerance, or set "
+                    "--spacing");
     SurfaceSamples samples = sampleSurface(mesh, options);
     describePoints(body, optics, samples.size(), report);
     reporter.info("points", fmt::format("{}: {} points, spacing {:.4g} mm, expected error {:.2g} %",
@@ -58,11 +88,12 @@ SurfaceSamples placePoints(const World& world, int bodyIndex, const BodyOptics& 
     return samples;
 }
 
-std::vector<Rgb> lightPoints(const World& world, int body, const SurfaceSamples& samples,
+IrradianceResult lightPoints(const World& world, int body, const SurfaceSamples& samples,
                              std::span<const std::unique_ptr<BodyOptics>> optics,
                              Reporter& reporter, BodyReport& report) {
     const PathTracer tracer(world, optics, {});
-    IrradianceResult light = computeIrradiance(world, body, samples, tracer, reporter);
+    const bool wantsBeams = optics[static_cast<std::size_t>(body)]->onShape;
+    IrradianceResult light = computeIrradiance(world, body, samples, tracer, reporter, wantsBeams);
     report.irradianceNoise = light.pointNoise;
     report.irradianceSamples = light.samplesPerPoint;
     report.counts = light.counts;
@@ -74,36 +105,85 @@ std::vector<Rgb> lightPoints(const World& world, int body, const SurfaceSamples&
                                        "{:.2g} %",
                                        report.name, light.samplesPerPoint, light.counts.rays,
                                        100 * light.pointNoise));
-    return std::move(light.irradiance);
+    return light;
 }
 
 namespace {
 
+// How samples are sorted to be a cloud; empty if they stand so.
+std::vector<std::uint32_t> cloudOrder(const SurfaceSamples& samples) {
+    if (samples.inMortonOrder) return {};
+    std::vector<Vec3> positions;
+    for (const SurfacePoint& point : samples.points) positions.push_back(point.position);
+    return mortonOrder(positions);
+}
+
 template <typename T>
-std::vector<T> inOrder(const std::vector<T>& items, std::span<const std::uint32_t> order) {
+std::vector<T> inOrder(std::vector<T> items, std::span<const std::uint32_t> order,
+                       std::size_t perPoint = 1) {
+    if (order.empty()) return items;
     std::vector<T> sorted;
     sorted.reserve(items.size());
-    for (const std::uint32_t i : order) sorted.push_back(items[i]);
+    for (const std::uint32_t i : order)
+        for (std::size_t k = 0; k < perPoint; ++k) sorted.push_back(items[i * perPoint + k]);
     return sorted;
 }
 
 }  // namespace
 
-BodyCloud buildCloud(SurfaceSamples samples, std::vector<Rgb> irradiance, BodyReport& report) {
+EnteredBeams beamsInOrder(const SurfaceSamples& samples, EnteredBeams beams) {
+    return {inOrder(std::move(beams.directions), cloudOrder(samples), EnteredBeams::kPerPoint)};
+}
+
+BodyCloud buildCloud(const SurfaceSamples& samples, std::vector<Rgb> irradiance,
+                     BodyReport& report) {
+    const std::vector<std::uint32_t> order = cloudOrder(samples);
     BodyCloud cloud;
-    if (!samples.inMortonOrder) {
-        std::vector<Vec3> positions;
-        for (const SurfacePoint& point : samples.points) positions.push_back(point.position);
-        const std::vector<std::uint32_t> order = mortonOrder(positions);
-        samples.points = inOrder(samples.points, order);
-        irradiance = inOrder(irradiance, order);
-    }
-    cloud.points = std::move(samples.points);
+    cloud.points = inOrder(samples.points, order);
+    irradiance = inOrder(std::move(irradiance), order);
     cloud.irradiance = std::move(irradiance);
     cloud.spacingMm = report.spacingMm;
     cloud.nodes = buildOctree({cloud.points, cloud.irradiance});
     report.nodes = cloud.nodes.size();
     return cloud;
+}
+
+std::vector<Rgb> shapeCorrection(const World& world, int body, const SurfaceSamples& samples,
+                                 const EnteredBeams& beams,
+                                 std::span<const std::unique_ptr<BodyOptics>> optics,
+                                 const BodyCloud::View& cloud, Reporter& reporter,
+                                 BodyReport& report) {
+    BodyOptics& own = *optics[static_cast<std::size_t>(body)];
+    std::vector<Rgb> once;
+    if (own.material.singleScattering) {
+        const PathTracer tracer(world, optics, nullptr);
+        once = inOrder(singleExitance(world, body, samples, tracer,
+                                      std::max(1, report.irradianceSamples / kLightPerSingleSample),
+                                      report.counts),
+                       cloudOrder(samples));
+    }
+    ShapeExitance shape = solveShape(world, body, own, cloud, beams, once);
+    std::vector<Rgb> correction = std::move(shape.correction);
+    report.unscatteredShare = maxComponent(shape.unscattered);
+    own.lookThroughIf(report.unscatteredShare, world.scene().quality.tolerance);
+    const GmresReport& solve = shape.report.solve;
+    const auto percent = [](const DRgb& v) {
+        return fmt::format("{:.3g} {:.3g} {:.3g} %", 100 * v.x, 100 * v.y, 100 * v.z);
+    };
+    reporter.info("shape", fmt::format("{}: {} sums, residual {:.2g}; of the light that enters, {} "
+                                       "leave by multiple scattering, {} by single, {} go straight "
+                                       "through, {} are absorbed",
+                                       report.name, solve.iterations, maxComponent(solve.residual),
+                                       percent(shape.leaves), percent(shape.single),
+                                       percent(shape.unscattered), percent(shape.absorbed)));
+    if (!solve.converged)
+        reporter.warn("shape",
+                      fmt::format("{}: after {} sums the equations hold to {:.2g} only: "
+                                  "its surface cuts itself, or lies closer to itself than "
+                                  "the points' spacing; set --spacing to refine",
+                                  report.name, solve.iterations, maxComponent(solve.residual)));
+    report.shape = std::move(shape);
+    return correction;
 }
 
 }  // namespace sss

@@ -11,8 +11,9 @@ namespace sss {
 namespace {
 
 // Raised when the algorithms of pass 1 change what they make of the same input.
-constexpr std::uint64_t kExitanceVersion = 2;  // the same of the diffusion sum and its sites
 constexpr std::uint64_t kPassOneVersion = 3;
+constexpr std::uint64_t kExitanceVersion = 2;  // the same of the diffusion sum and its sites
+constexpr std::uint64_t kShapeVersion = 1;     // ... and of diffusion on the shape
 
 void add(Hasher& h, const DVec3& v) { h.add(v.x).add(v.y).add(v.z); }
 void add(Hasher& h, const Rgb& v) { add(h, DVec3(v)); }
@@ -69,17 +70,22 @@ struct LightHasher {
     }
 };
 
+// The medium and its profile.
+void addDiffusion(Hasher& h, const TranslucentMaterial& m) {
+    add(h, m.medium.sigmaA);
+    add(h, m.medium.sigmaS);
+    add(h, m.medium.g);
+    h.add(m.medium.eta).add(m.profile);
+    h.add(static_cast<std::uint64_t>(m.profileOptions.boundary));
+    h.add(m.profileOptions.slabThicknessMm.value_or(-1.0));
+    h.add(m.profileOptions.surfaceAlbedo.value_or(-1.0));
+}
+
 struct MaterialHasher {
     Hasher& h;
     void operator()(const TranslucentMaterial& m) const {
         h.add("translucent");
-        add(h, m.medium.sigmaA);
-        add(h, m.medium.sigmaS);
-        add(h, m.medium.g);
-        h.add(m.medium.eta).add(m.profile);
-        h.add(static_cast<std::uint64_t>(m.profileOptions.boundary));
-        h.add(m.profileOptions.slabThicknessMm.value_or(-1.0));
-        h.add(m.profileOptions.surfaceAlbedo.value_or(-1.0));
+        addDiffusion(h, m);
         h.add(m.roughness).add(static_cast<std::uint64_t>(m.energy));
         h.add(std::uint64_t{m.surfaceReflection}).add(std::uint64_t{m.singleScattering});
         h.add(std::uint64_t{m.multipleScattering});
@@ -151,6 +157,15 @@ Fingerprint mediumOf(const World& world, const Body& body) {
     return h.finish();
 }
 
+// What diffusion on the shape depends on beside the light, which has eta (and so the beams) in it.
+Fingerprint shapeOf(const TranslucentMaterial& material, double tolerance) {
+    Hasher h;
+    h.add(kShapeVersion).add(tolerance);
+    addDiffusion(h, material);
+    h.add(std::uint64_t{material.singleScattering});
+    return h.finish();
+}
+
 // All objects, where they stand relative to the first body, and what the others are made of. The
 // body itself counts with its place only: its mesh and medium are inputs of their own.
 Fingerprint surroundingsOf(const World& world, int body) {
@@ -174,15 +189,15 @@ BodyInputs bodyInputs(const World& world, int bodyIndex, double spacingMm,
     const Body& body = world.bodies()[static_cast<std::size_t>(bodyIndex)];
     const QualitySettings& quality = world.scene().quality;
     BodyInputs inputs;
-    Hasher mesh, shape, sampling, light;
+    Hasher mesh, form, sampling, light;
     addMesh(mesh, placedOn != nullptr ? *placedOn : body.mesh);
     inputs.push_back({"mesh", "the mesh (or its scale) is another", mesh.finish()});
     sampling.add(kPassOneVersion).add(spacingMm).add(quality.seed);
     inputs.push_back({"sampling",
                       "its points differ: in seed, or in spacing, by tolerance or medium",
                       sampling.finish()});
-    addMesh(shape, body.mesh);
-    inputs.push_back({"shape", "it has another shape", shape.finish()});
+    addMesh(form, body.mesh);
+    inputs.push_back({"form", "it has another shape", form.finish()});
     inputs.push_back({"medium", "the medium of its material is another", mediumOf(world, body)});
     inputs.push_back(
         {"lights", "the lights are others, or stand elsewhere around it", lightsOf(world)});
@@ -193,6 +208,11 @@ BodyInputs bodyInputs(const World& world, int bodyIndex, double spacingMm,
         .add(static_cast<std::uint64_t>(quality.bounces));
     inputs.push_back(
         {"irradiance", "irradiance samples or bounces of the light pass differ", light.finish()});
+    const TranslucentMaterial& material = world.materialOf(body);
+    if (material.onShape && body.closed)
+        inputs.push_back({"shape",
+                          "it was made for another medium, model of diffusion or tolerance",
+                          shapeOf(material, quality.tolerance)});
     return inputs;
 }
 
@@ -203,11 +223,18 @@ InputFingerprint exitanceInput(const World& world, int body) {
     return {"exitance", "the medium, its profile or the tolerance are others", h.finish()};
 }
 
-Fingerprint pointsFingerprint(const BodyInputs& inputs) {
-    return combined(inputs, {"mesh", "sampling"});
+std::vector<std::string_view> pointsKeys() { return {"mesh", "sampling"}; }
+
+std::vector<std::string_view> lightKeys() {
+    return {"mesh",   "sampling", "form",         "medium",
+            "lights", "volumes",  "surroundings", "irradiance"};
 }
 
-Fingerprint lightFingerprint(const BodyInputs& inputs) {
+Fingerprint pointsFingerprint(const BodyInputs& inputs) { return combined(inputs, pointsKeys()); }
+
+Fingerprint lightFingerprint(const BodyInputs& inputs) { return combined(inputs, lightKeys()); }
+
+Fingerprint shapeFingerprint(const BodyInputs& inputs) {
     Hasher h;
     for (const InputFingerprint& input : inputs) h.add(input.value);
     return h.finish();

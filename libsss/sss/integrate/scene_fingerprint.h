@@ -29,9 +29,15 @@ BodyInputs bodyInputs(const World& world, int body, double spacingMm,
 /// What the exitance of a body depends on beside those.
 InputFingerprint exitanceInput(const World& world, int body);
 
-/// Of the stages: points, and light with all that comes from the two.
+/// Keys of the inputs that points, and light, depend on.
+std::vector<std::string_view> pointsKeys();
+std::vector<std::string_view> lightKeys();
+
+/// Of the stages: points; light (beams among it) with all that comes from the two; and what
+/// diffusion on the shape makes of that, where the body asks for it (its inputs have a "shape").
 Fingerprint pointsFingerprint(const BodyInputs& inputs);
 Fingerprint lightFingerprint(const BodyInputs& inputs);
+Fingerprint shapeFingerprint(const BodyInputs& inputs);
 
 /// One fingerprint of the inputs called `keys`.
 Fingerprint combined(const BodyInputs& inputs, const std::vector<std::string_view>& keys);

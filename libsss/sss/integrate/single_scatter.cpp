@@ -140,6 +140,16 @@ private:
 
 }  // namespace
 
+bool mayScatterOnce(const World& world, const BodyOptics& optics, const Vec3& place) {
+    if (!(optics.singleReachMm > 0)) return false;
+    if (world.hasVolumes()) return true;  // they throw light back from where no light is
+    const Vec3 reach(optics.singleReachMm);
+    const Bounds near{place - reach, place + reach};
+    const Bounds& box = world.scene().quality.bounces > 0 ? world.bounds() : near;
+    return std::ranges::any_of(world.lights(),
+                               [&](const auto& light) { return light->importance(box) > 0; });
+}
+
 Rgb singleScattering(const World& world, const BodyOptics& optics, const SurfaceHit& hit,
                      const Vec3& wo, const Vec3& normal, Sampler& sampler,
                      const IncomingRadiance& incoming, SingleScatterCounts& counts) {

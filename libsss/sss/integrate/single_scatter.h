@@ -17,6 +17,11 @@ struct SingleScatterCounts {
     std::uint64_t samples = 0, rays = 0;
 };
 
+/// Whether light from outside may be scattered within single scattering's reach of a place of a
+/// body's surface: false only where none of the lights can shine there, nor, if paths are to
+/// bounce, on any surface. Nanoseconds.
+bool mayScatterOnce(const World& world, const BodyOptics& optics, const Vec3& place);
+
 /// One estimate of the radiance that leaves a body at `hit` towards `wo` after exactly one
 /// scattering inside it [JMLH01 section 2.3, rigorous form].
 ///

@@ -38,6 +38,7 @@ SpacingRule spacingFor(const BodyOptics& optics, double tolerance) {
     for (int c = 0; c < 3; ++c) {
         const ChannelMedium medium = optics.material.medium.channel(c);
         if (!(medium.sigmaSPrime() > 0)) continue;  // nothing leaves in this channel
+        if (optics.firstLike(c) < c) continue;      // as that one
         const double l = medium.meanFreePathMm();
         const double w = profileConcentration(*optics.profiles[static_cast<std::size_t>(c)], l);
         const double perMfp =
@@ -55,7 +56,7 @@ double expectedQuadratureError(const BodyOptics& optics, double spacingMm) {
     double worst = 0;
     for (int c = 0; c < 3; ++c) {
         const ChannelMedium medium = optics.material.medium.channel(c);
-        if (!(medium.sigmaSPrime() > 0)) continue;
+        if (!(medium.sigmaSPrime() > 0) || optics.firstLike(c) < c) continue;
         const double l = medium.meanFreePathMm();
         const double w = profileConcentration(*optics.profiles[static_cast<std::size_t>(c)], l);
         worst =

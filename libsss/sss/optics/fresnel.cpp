@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace sss {
 namespace {
@@ -53,7 +54,7 @@ T conductor(T cosine, T eta, T k) {
     const T modulus = std::hypot(realPart, 2 * eta * k);  // a^2 + b^2
     const T a = std::sqrt(std::max((modulus + realPart) / 2, T(0)));
     const T rs = (modulus - 2 * a * c + cc) / (modulus + 2 * a * c + cc);
-    if (c == 0) return 1;
+    if (c < std::numeric_limits<T>::min()) return 1;  // where 1/c would overflow
     const T tt = ss / c * ss;  // sin^2 tan^2, times the cosine to stay finite at grazing
     const T middle = 2 * a * ss;
     const T ratio = (modulus * c + tt - middle) / (modulus * c + tt + middle);

@@ -19,6 +19,8 @@ constexpr std::string_view kBoundaries[] = {"exact", "polynomial"};
 // In the order of EnergyConvention.
 constexpr std::string_view kEnergies[] = {"consistent", "jensen"};
 
+constexpr std::string_view kDiffusions[] = {"profile", "shape"};
+
 constexpr Field<TranslucentMaterial> kTranslucentFields[] = {
     {"type"},
     {"profile", readProfile},
@@ -30,6 +32,8 @@ constexpr Field<TranslucentMaterial> kTranslucentFields[] = {
      [](TranslucentMaterial& m, const Node& n) {
          m.energy = static_cast<EnergyConvention>(choice(n, kEnergies));
      }},
+    {"diffusion",
+     [](TranslucentMaterial& m, const Node& n) { m.onShape = choice(n, kDiffusions) == 1; }},
     {"slabThicknessMm",
      [](TranslucentMaterial& m, const Node& n) {
          m.profileOptions.slabThicknessMm = number(n, kMmRange);

@@ -48,6 +48,8 @@ struct TranslucentMaterial {
     bool surfaceReflection = true;
     bool singleScattering = true;
     bool multipleScattering = true;
+    /// Diffusion solved on the body's own shape (closed bodies only) instead of the profile alone.
+    bool onShape = false;
 };
 struct LambertianMaterial {
     Rgb reflectance{0.5f};

@@ -84,6 +84,19 @@ Camera::Window Camera::windowOf(const Bounds& box) const {
     return window;
 }
 
+double Camera::pixelWidthMm(const Bounds& box) const {
+    if (box.isEmpty()) return 0;
+    const DVec3 lo = DVec3(box.lo) - DVec3(position_), hi = DVec3(box.hi) - DVec3(position_);
+    double depth = 0;
+    for (int k = 0; k < 3; ++k)
+        depth += static_cast<double>(forward_[k]) * (forward_[k] > 0 ? lo[k] : hi[k]);
+    if (!(depth > 0)) return 0;
+    // Towards the film's corners a pixel is seen askew.
+    const double right = tanHalfFov_ * width_ / height_;
+    const double cosCorner = 1 / std::sqrt(1 + tanHalfFov_ * tanHalfFov_ + right * right);
+    return depth * tanPerPixel_ * cosCorner;
+}
+
 std::array<double, 16> Camera::worldToCamera() const {
     // Camera space looks along -z, y up, as RenderMan's and Nuke's readers of this attribute
     // expect.

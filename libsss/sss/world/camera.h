@@ -29,6 +29,9 @@ public:
     /// easily said (through a lens, or if the point is not in front).
     std::optional<Vec2> pixelOf(const Vec3& point) const;
     static constexpr float kPixelError = 0.01f;
+    /// mm: no pixel is narrower, across its ray, at anything in `box`. 0 if that is not all in
+    /// front.
+    double pixelWidthMm(const Bounds& box) const;
     const Vec3& forward() const { return forward_; }
     /// OpenEXR's worldToCamera and worldToNDC, in scene millimetres (not recentred), row vectors.
     std::array<double, 16> worldToCamera() const;

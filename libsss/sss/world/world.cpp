@@ -113,6 +113,11 @@ void World::describeBody(const Body& body, Reporter& reporter) const {
                                   "scattering has no inside there; close it, or set "
                                   "\"singleScattering\": false",
                                   body.name));
+    if (!body.closed && translucent.onShape)
+        reporter.warn("mesh", fmt::format("{}: diffusion cannot be solved on a shape without an "
+                                          "inside: the profile \"{}\" stands in; close the open "
+                                          "edges named above",
+                                          body.name, translucent.profile));
 }
 
 void World::makeParts() {

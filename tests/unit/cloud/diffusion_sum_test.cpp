@@ -208,6 +208,74 @@ TEST(DiffusionSum, NothingComesOfNothing) {
     }
 }
 
+// What all receivers of a mesh's places cost and get, and how far the sums are from brute force.
+struct Cost {
+    SumCounts counts;
+    double largestMiss = 0;  // relative
+};
+Cost costOf(const DiffusionSum& sum, std::span<const Vec3> receivers, double tolerance) {
+    Cost cost;
+    std::vector<Rgb> out(receivers.size());
+    DiffusionSum::Scratch scratch;
+    sum.evaluate(receivers, tolerance, out, scratch, cost.counts);
+    for (std::size_t i = 0; i < out.size(); ++i) {
+        const DRgb truth = sum.bruteForce(receivers[i]);
+        for (int c = 0; c < 3; ++c)
+            cost.largestMiss = std::max(
+                cost.largestMiss, std::abs(static_cast<double>(out[i][c]) - truth[c]) / truth[c]);
+    }
+    return cost;
+}
+
+TEST(DiffusionSum, WhatIsDarkCostsNothing) {
+    const Optics optics("marble");
+    const TriangleMesh mesh = makeSphere(6);
+    const LitCloud half(mesh, 0.3, halfPlane);
+    const KernelTable table = half.table(optics, 13);
+    const std::vector<Vec3> receivers = placesOn(mesh, 32, 2);
+    // The same without the points that are dark.
+    LitCloud lit = half;
+    lit.samples.points.clear();
+    lit.irradiance.clear();
+    for (std::size_t i = 0; i < half.samples.size(); ++i)
+        if (!isZero(half.irradiance[i])) {
+            lit.samples.points.push_back(half.samples.points[i]);
+            lit.irradiance.push_back(half.irradiance[i]);
+        }
+    lit.nodes = buildOctree(lit.view());
+    const std::size_t litPoints = lit.irradiance.size();
+    ASSERT_LT(litPoints, 6 * half.samples.size() / 10);
+    for (const double tolerance : {0.0, 0.001}) {
+        const Cost all = costOf({lit.view(), lit.nodes, table}, receivers, tolerance);
+        const Cost some = costOf({half.view(), half.nodes, table}, receivers, tolerance);
+        EXPECT_EQ(all.counts.nodesSkipped + all.counts.pointsSkipped, 0u) << tolerance;
+        EXPECT_GT(some.counts.nodesSkipped, 0u) << tolerance;
+        // Nodes at the edge of the light are larger with the dark points in them.
+        EXPECT_LT(static_cast<double>(some.counts.interactions()),
+                  1.05 * static_cast<double>(all.counts.interactions()));
+        EXPECT_LT(some.largestMiss, std::max(2e-6, tolerance));
+        if (tolerance > 0) continue;
+        EXPECT_EQ(some.counts.interactions(), all.counts.interactions());
+        // Dark points beside lit ones, and whole dark nodes: no dark point is summed.
+        EXPECT_GT(some.counts.pointsSkipped, 0u);
+        EXPECT_LE(some.counts.interactions(), 32 * litPoints);
+    }
+}
+
+TEST(DiffusionSum, WhatLiesBeyondTheProfileCostsNothing) {
+    const Optics optics("ketchup");
+    const double l = optics.smallestMfp();
+    // A strip so long that what leaves its far end is below what single precision holds.
+    const TriangleMesh mesh = makeRectangle(1500 * l, 2 * l);
+    const LitCloud cloud(mesh, 0.7 * l, [](const Vec3&) { return Rgb(1.0f); });
+    const KernelTable table = cloud.table(optics, mesh.bounds().diagonal());
+    const std::vector<Vec3> receivers(8, cloud.samples.points.front().position);
+    const Cost cost = costOf({cloud.view(), cloud.nodes, table}, receivers, 0);
+    EXPECT_GT(cost.counts.nodesSkipped, 0u);
+    EXPECT_LT(cost.counts.pointInteractions, 8 * cloud.samples.size() / 2);
+    EXPECT_LT(cost.largestMiss, 2e-6);
+}
+
 // A channel without light stays without, beside bright ones.
 TEST(DiffusionSum, DarkChannelStaysDark) {
     const Optics optics("skin1");

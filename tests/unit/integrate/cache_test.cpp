@@ -2,6 +2,7 @@
 #include "sss/integrate/cloud_cache.h"
 #include "sss/integrate/scene_fingerprint.h"
 #include "support/temporary_folder.h"
+#include "unit/integrate/cache_maker.h"
 #include "unit/integrate/pass_maker.h"
 
 #include <gtest/gtest.h>
@@ -107,7 +108,7 @@ TEST(SceneFingerprint, NamesExactlyWhatChanged) {
          [](Scene& s) { std::get<DirectionalLight>(s.lights[0]).irradiance.y = 3; },
          {"lights"}},
         {"another light", [](Scene& s) { s.lights.emplace_back(PointLight{}); }, {"lights"}},
-        {"mesh", [](Scene& s) { s.objects[0].shape = BoxShape{DVec3(5.01)}; }, {"mesh", "shape"}},
+        {"mesh", [](Scene& s) { s.objects[0].shape = BoxShape{DVec3(5.01)}; }, {"mesh", "form"}},
         {"medium",
          [](Scene& s) {
              std::get<TranslucentMaterial>(s.materials[0].material).medium.sigmaA.z = 1;
@@ -165,11 +166,7 @@ struct Written {
           world(maker.world()),
           optics(makeBodyOptics(world)),
           made(world, optics) {
-        const std::vector<BodyInputs> inputs = worldInputs(world, optics);
-        std::vector<CachedBody> cached;
-        for (std::size_t b = 0; b < inputs.size(); ++b)
-            cached.push_back({made.clouds[b].view(), &made.reports[b], &inputs[b]});
-        writeCloudCache(path, world, cached);
+        testing::writeCache(path, world, optics, made.clouds, made.reports);
     }
 };
 
@@ -236,6 +233,12 @@ TEST(CloudCache, OctreeThatDoesNotFitIsRefused) {
         [](Nodes& n) { n.back().first = 0x7fffffffu; },
         [](Nodes& n) { n.back().count = 0xffffffffu; },
         [](Nodes& n) { n.clear(); },
+        [](Nodes& n) { n[1].first = n[0].first; },  // the same children twice
+        [](Nodes& n) { n.back().count -= 1; },      // a point that nobody has
+        [](Nodes& n) { n[3].centroid.y = NAN; },
+        [](Nodes& n) { n[3].hi.x = INFINITY; },
+        [](Nodes& n) { n[3].lo.y = 1e30f; },  // its distance squared would be infinite
+        [](Nodes& n) { n[3].flux.z = -1; },
     };
     for (const auto& damage : damages) {
         const auto stored = good.section<OctreeNode>("octree", 0);

@@ -36,6 +36,14 @@ struct Warnings final : Reporter {
     void progress(std::string_view, double, double, bool) override {}
 };
 
+std::vector<Fingerprint> exitanceFingerprints(const World& world,
+                                              std::span<const std::unique_ptr<BodyOptics>> optics) {
+    std::vector<Fingerprint> all;
+    for (const BodyInputs& inputs : worldInputs(world, optics))
+        all.push_back(exitanceFingerprint(world, static_cast<int>(all.size()), inputs));
+    return all;
+}
+
 // A scene with its fields, as sss-render has them.
 struct Frame {
     SilentReporter silent;
@@ -50,10 +58,10 @@ struct Frame {
         : world(scene, silent),
           optics(makeBodyOptics(world)),
           made(world, optics),
-          cache(exitanceFileOf(file),
-                {exitanceFingerprint(world, 0, worldInputs(world, optics)[0])}) {
-        fields.push_back(std::make_unique<BodyField>(
-            world.bodies()[0], *optics[0], made.clouds[0].view(), scene.quality.tolerance));
+          cache(exitanceFileOf(file), exitanceFingerprints(world, optics)) {
+        for (std::size_t b = 0; b < optics.size(); ++b)
+            fields.push_back(std::make_unique<BodyField>(
+                world.bodies()[b], *optics[b], made.clouds[b].view(), scene.quality.tolerance));
     }
     std::uint64_t load() { return cache.load(fields, warnings); }
     void save() { cache.save(fields, warnings); }
@@ -114,6 +122,30 @@ TEST(ExitanceCache, FramesAddWhatTheySeeForTheFirstTime) {
     later.load();
     EXPECT_TRUE(sameBytes(later.look(0, 12), expected));
     EXPECT_EQ(later.counts().groups, 0u);
+}
+
+// From afar a body may be in its diffuse limit and have no field; what is known of it stays.
+TEST(ExitanceCache, KeepsWhatAFrameDoesNotWant) {
+    const TemporaryFolder folder;
+    Scene scene = lampOverBox();
+    scene.objects.push_back(scene.objects[0]);
+    scene.objects[1].name = "other";
+    scene.objects[1].transform = {testing::moved({20, 0, 0})};
+    Frame near(scene, folder / "c.ssc");
+    near.look(0, 3);
+    near.fields[1]->exitance(0, {0.2f, 0.2f});
+    near.save();
+    const std::uint64_t first = near.counts().groups, other = near.fields[1]->counts().groups;
+    ASSERT_GT(other, 0u);
+
+    Frame far(scene, folder / "c.ssc");
+    far.fields[1].reset();
+    EXPECT_EQ(far.load(), first);
+    far.look(0, 12);
+    const std::uint64_t added = far.counts().groups;
+    ASSERT_GT(added, 0u);
+    far.save();
+    EXPECT_EQ(Frame(scene, folder / "c.ssc").load(), first + other + added);
 }
 
 TEST(ExitanceCache, NothingStaleIsUsed) {

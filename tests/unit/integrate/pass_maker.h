@@ -16,26 +16,41 @@ struct MadeClouds {
         SilentReporter silent;
         for (int b = 0; b < static_cast<int>(world.bodies().size()); ++b) {
             BodyReport& report = reports.emplace_back();
-            SurfaceSamples samples =
+            if (optics[static_cast<std::size_t>(b)]->inDiffuseLimit) {
+                clouds.emplace_back();
+                continue;
+            }
+            const SurfaceSamples samples =
                 placePoints(world, b, *optics[static_cast<std::size_t>(b)], {}, silent, report);
-            std::vector<Rgb> irradiance = lightPoints(world, b, samples, optics, silent, report);
-            clouds.push_back(buildCloud(std::move(samples), std::move(irradiance), report));
+            IrradianceResult light = lightPoints(world, b, samples, optics, silent, report);
+            clouds.push_back(buildCloud(samples, std::move(light.irradiance), report));
+            if (optics[static_cast<std::size_t>(b)]->onShape)
+                clouds.back().correction = shapeCorrection(world, b, samples, light.beams, optics,
+                                                           clouds.back().view(), silent, report);
         }
     }
 };
 
 /// Pass 2 from clouds, `view(body)` each.
 template <typename View>
-LayeredImage renderFrom(const World& world, std::span<const std::unique_ptr<BodyOptics>> optics,
+RenderResult resultFrom(const World& world, std::span<const std::unique_ptr<BodyOptics>> optics,
                         const View& view) {
     std::vector<std::unique_ptr<BodyField>> fields;
     for (std::size_t b = 0; b < world.bodies().size(); ++b)
-        fields.push_back(std::make_unique<BodyField>(world.bodies()[b], *optics[b], view(b),
-                                                     world.scene().quality.tolerance));
+        fields.push_back(optics[b]->inDiffuseLimit
+                             ? nullptr
+                             : std::make_unique<BodyField>(world.bodies()[b], *optics[b], view(b),
+                                                           world.scene().quality.tolerance));
     SilentReporter silent;
     RenderResult result = render(world, optics, fields, silent);
     EXPECT_EQ(result.dropped.samples, 0u);
-    return std::move(result.image);
+    return result;
+}
+
+template <typename View>
+LayeredImage renderFrom(const World& world, std::span<const std::unique_ptr<BodyOptics>> optics,
+                        const View& view) {
+    return std::move(resultFrom(world, optics, view).image);
 }
 
 /// Both passes.

@@ -1,5 +1,5 @@
 #include "sss/medium/measured_media.h"
-#include "sss/scene/boundary_override.h"
+#include "sss/scene/material_override.h"
 #include "sss/scene/metal_table.h"
 #include "unit/scene/scene_text.h"
 

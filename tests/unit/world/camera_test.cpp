@@ -165,5 +165,36 @@ TEST(Camera, TheWindowIsEverythingWhereItCannotBeSaid) {
     EXPECT_GT(Camera(settings(), 300, 200, DVec3(0)).windowOf({}).lo.x, 1e30f);
 }
 
+// Two rays a pixel apart, where they are nearest to the camera in a box.
+TEST(Camera, NoPixelIsNarrowerThanItSays) {
+    const Camera camera(settings(), 300, 200, DVec3(0));
+    const Vec3 middle = Vec3(settings().position + 40.0 * viewDirection());
+    const Bounds box{middle - Vec3(30, 20, 10), middle + Vec3(5, 6, 7)};
+    const double width = camera.pixelWidthMm(box);
+    const double depth = [&] {
+        double nearest = 1e9;
+        for (const float x : {box.lo.x, box.hi.x})
+            for (const float y : {box.lo.y, box.hi.y})
+                for (const float z : {box.lo.z, box.hi.z})
+                    nearest = std::min(
+                        nearest, glm::dot(DVec3(x, y, z) - settings().position, viewDirection()));
+        return nearest;
+    }();
+    double narrowest = 1e9;
+    for (const Vec2 pixel : {Vec2(0, 0), Vec2(150, 100), Vec2(299, 0), Vec2(299, 199)})
+        for (const Vec2 step : {Vec2(1, 0), Vec2(0, 1)}) {
+            const DVec3 u(camera.ray(pixel, Vec2(0.5f)).direction),
+                v(camera.ray(pixel + step, Vec2(0.5f)).direction);
+            const double distance = depth / glm::dot(u, viewDirection());
+            // Across the ray, whichever way the pixel is cut: its shorter side at a corner lies
+            // between the two.
+            narrowest = std::min(narrowest, distance * glm::length(glm::cross(u, v)));
+        }
+    EXPECT_GT(narrowest, 0.999 * width);
+    EXPECT_LT(narrowest, 1.2 * width);
+    EXPECT_EQ(camera.pixelWidthMm({middle - Vec3(60), middle + Vec3(60)}), 0);
+    EXPECT_EQ(camera.pixelWidthMm(Bounds{}), 0);
+}
+
 }  // namespace
 }  // namespace sss

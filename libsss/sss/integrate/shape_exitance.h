@@ -1,0 +1,27 @@
+#pragma once
+#include "sss/base/reporter.h"
+#include "sss/integrate/beam_sources.h"
+#include "sss/integrate/body_optics.h"
+#include "sss/shape/shape_solver.h"
+
+#include <vector>
+
+namespace sss {
+
+/// Diffusion on a body's own shape, as what it changes about the exitance that the profile gives.
+struct ShapeExitance {
+    std::vector<Rgb> correction;  ///< by point, W m^-2
+    ShapeReport report;
+    /// Shares of the light that entered: multiple and single scattering that leaves, straight
+    /// through, and absorbed (what is left).
+    DRgb leaves{0}, single{0}, unscattered{0}, absorbed{0};
+};
+
+/// Solves it for a body with its points, light and beams, W m^-2; what single scattering shows (if
+/// the material has it on) is taken out, place by place, so that both together leave what was
+/// solved. `once`: the exitance of single scattering by point, or empty.
+ShapeExitance solveShape(const World& world, int body, const BodyOptics& optics,
+                         const BodyCloud::View& cloud, const EnteredBeams& beams,
+                         std::span<const Rgb> once);
+
+}  // namespace sss

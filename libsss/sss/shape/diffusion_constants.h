@@ -1,0 +1,23 @@
+#pragma once
+#include "sss/medium/medium.h"
+#include "sss/optics/fresnel_moments.h"
+
+namespace sss {
+
+/// What the diffusion equation needs to know of a medium, per channel [JMLH01 section 2.1; d'Eon &
+/// Irving 2011 for D and the moments]:
+///   D lap(phi) = sigma_a phi - Q inside, phi + b dphi/dn = 0 on the boundary (n outward).
+struct DiffusionConstants {
+    DRgb diffusionMm{0};    ///< D, Grosjean's
+    DRgb screening{0};      ///< k = sqrt(sigma_a / D), mm^-1; 0 without absorption
+    DRgb boundaryMm{0};     ///< b = 2 A D
+    DRgb impedance{0};      ///< 2 A: fluence over radiant exitance at the boundary
+    DRgb reducedAlbedo{0};  ///< alpha', the share of a first collision that scatters
+    DRgb extinction{0};     ///< sigma'_t, mm^-1
+    /// Channels that scatter; the others send nothing back, and their numbers above mean nothing.
+    bool scatters[3] = {false, false, false};
+};
+
+DiffusionConstants diffusionConstants(const Medium& medium, const FresnelMoments& moments);
+
+}  // namespace sss

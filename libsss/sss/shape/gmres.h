@@ -1,0 +1,26 @@
+#pragma once
+#include "sss/base/vec.h"
+
+#include <functional>
+#include <span>
+#include <vector>
+
+namespace sss {
+
+/// Linear systems of the three channels, solved side by side: numbers are DRgb, all arithmetic is
+/// by channel.
+struct GmresReport {
+    int iterations = 0;  ///< products with the operator
+    DRgb residual{0};    ///< |right - K x| / |right|, by the recurrence
+    bool converged = false;
+};
+
+/// Solves K x = right by GMRES without restarts [Saad & Schultz 1986], from the guess that `x`
+/// holds, until every channel's residual is below `tolerance` or `mostIterations` products were
+/// made. `apply(in, out)` sets out = K in. A channel whose right side is 0 becomes 0.
+/// Deterministic.
+GmresReport gmres(const std::function<void(std::span<const DRgb>, std::span<DRgb>)>& apply,
+                  std::span<const DRgb> right, std::span<DRgb> x, double tolerance,
+                  int mostIterations);
+
+}  // namespace sss

@@ -1,0 +1,52 @@
+#pragma once
+#include "sss/cloud/diffusion_sum.h"
+#include "sss/shape/charge_tree.h"
+#include "sss/shape/diffusion_constants.h"
+#include "sss/shape/gmres.h"
+#include "sss/shape/layer_sum.h"
+#include "sss/shape/source_cloud.h"
+
+#include <span>
+#include <vector>
+
+namespace sss {
+
+struct ShapeReport {
+    GmresReport solve;
+    LayerCounts layers;
+    SumCounts sources;
+};
+
+/// The diffusion equation on a body's own shape, by boundary elements over its point cloud: one
+/// unknown, the fluence, at every point (README.md of this folder derives it).
+///
+///   phi/2 + integral over the boundary of [G / b + dG/dn] phi = phi_source
+///
+/// with Gauss' identity, integral of dG0/dn = -1/2, in place of the 1/2: the strong part of dG/dn
+/// cancels for whatever angle the surface makes at a point.
+class ShapeSolver {
+public:
+    /// `cloud` (points, octree) of one closed body must outlive the solver; `spacingMm` is theirs,
+    /// `reachMm` the largest distance within the body.
+    ShapeSolver(const CloudView& cloud, std::span<const OctreeNode> nodes,
+                const DiffusionConstants& medium, double spacingMm, double reachMm);
+
+    /// Fluence at the points, W m^-2, from the guess that it holds: the right order of magnitude
+    /// everywhere sets what may be missed where, and it is where the iteration starts. `tolerance`:
+    /// relative to the local fluence.
+    ShapeReport solve(std::span<const VolumeSource> sources, double tolerance,
+                      std::span<DRgb> fluence) const;
+    /// Solid angle over 4 pi that the body fills as seen from each point: 1/2 where it is flat.
+    std::span<const float> fill() const { return fill_; }
+
+private:
+    void measureFill(double reachMm);
+
+    CloudView cloud_;
+    std::span<const OctreeNode> nodes_;
+    DiffusionConstants medium_;
+    double spacingMm_, reachMm_;
+    std::vector<float> fill_;
+};
+
+}  // namespace sss

@@ -1,0 +1,60 @@
+#!/usr/bin/env python3
+"""Runs the fuzzers of the readers for so many seconds in all; inputs that they stumble over are kept.
+
+fuzzing.py BIN OUT SECONDS, with BIN the folder of a build by the preset "fuzz"."""
+
+import pathlib
+import re
+import subprocess
+import sys
+
+from programs import Row
+
+HERE = pathlib.Path(__file__).resolve().parent
+TARGETS = ("scene", "cache", "exitance", "obj", "ply", "off", "stl", "exr")
+MESHES = ("obj", "ply", "off", "stl")
+# A cache is as large as its points; everything else may be wrong in little.
+LONGEST = {"cache": 32768, "exitance": 32768}
+
+
+def fuzz(target, bin_folder, out, seconds):
+    """(executions, findings) of one reader."""
+    kept, found = out / "corpus" / target, out / "found" / target
+    kept.mkdir(parents=True, exist_ok=True)
+    found.mkdir(parents=True, exist_ok=True)
+    before = set(found.iterdir())
+    command = ["nice", "-n", "19", str(bin_folder / f"sss-fuzz-{target}"),
+               f"-max_total_time={seconds}", "-timeout=10", "-rss_limit_mb=2048",
+               "-malloc_limit_mb=600", f"-max_len={LONGEST.get(target, 4096)}",
+               "-print_final_stats=1", f"-artifact_prefix={found}/"]
+    if target == "scene" or target in MESHES:
+        command.append(f"-dict={HERE / 'fuzz' / ('scene' if target == 'scene' else 'mesh')}.dict")
+    done = subprocess.run(command + [str(kept), str(HERE / "corpus" / target)],
+                          stdin=subprocess.DEVNULL, capture_output=True, check=False)
+    words = done.stderr.decode(errors="replace")
+    (out / f"fuzz-{target}.log").write_text(words)
+    count = re.search(r"number_of_executed_units: (\d+)", words)
+    return int(count.group(1)) if count else 0, sorted(set(found.iterdir()) - before)
+
+
+def all_rows(bin_folder, out, seconds):
+    for target in TARGETS:
+        executions, findings = fuzz(target, bin_folder, out, max(1, seconds // len(TARGETS)))
+        row = Row("fuzzing", f"{target}: no crash, hang, leak or wrong answer")
+        row.cases, row.worst = executions, len(findings)
+        row.worst_at = ", ".join(str(path) for path in findings)
+        yield row
+
+
+def main():
+    bin_folder, out, seconds = pathlib.Path(sys.argv[1]), pathlib.Path(sys.argv[2]), int(sys.argv[3])
+    failed = False
+    for row in all_rows(bin_folder, out, seconds):
+        result = row.json()
+        failed |= not result["passed"]
+        print(result["name"], result["cases"], "executions", result["worstAt"], flush=True)
+    sys.exit(1 if failed else 0)
+
+
+if __name__ == "__main__":
+    main()

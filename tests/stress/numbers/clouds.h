@@ -1,0 +1,54 @@
+#pragma once
+#include "sss/cloud/diffusion_sum.h"
+#include "sss/cloud/octree.h"
+#include "sss/cloud/point_cloud.h"
+#include "unit/cloud/cloud_tools.h"
+
+#include <cstdint>
+#include <span>
+#include <string_view>
+#include <vector>
+
+namespace sss::stress {
+
+/// A cloud that no surface would give, in the octree's order.
+struct HardCloud {
+    std::vector<SurfacePoint> points;
+    std::vector<Rgb> irradiance;
+    std::vector<OctreeNode> nodes;
+
+    /// In any order: sorted here.
+    HardCloud(std::vector<SurfacePoint> points, std::vector<Rgb> irradiance);
+    CloudView view() const { return {points, irradiance}; }
+    HardCloud shuffled(std::uint64_t seed) const;
+    /// `factor` in length; areas follow.
+    HardCloud scaled(float factor) const;
+};
+
+/// Where points lie, in mm, within some 10 mm of the origin; area 1 mm^2 each.
+struct Arrangement {
+    std::string_view name;
+    Vec3 (*place)(std::uint32_t index, std::uint32_t count);
+};
+std::span<const Arrangement> arrangements();
+
+/// What enters at each.
+struct Lighting {
+    std::string_view name;
+    Rgb (*irradiance)(std::uint32_t index, std::uint32_t count);
+};
+std::span<const Lighting> lightings();
+
+HardCloud makeCloud(const Arrangement& where, const Lighting& light, std::uint32_t count);
+
+/// On points, between them, near and far.
+std::vector<Vec3> receiversFor(const HardCloud& cloud, std::size_t count);
+
+/// Sum over all points in double, by the profiles themselves rather than by the sum's table.
+DRgb sumByProfiles(const HardCloud& cloud, const testing::Optics& optics, const Vec3& receiver);
+
+/// The sum as pass 2 takes it, all receivers in one group.
+std::vector<Rgb> sumByTree(const HardCloud& cloud, const KernelTable& table,
+                           std::span<const Vec3> receivers, double tolerance);
+
+}  // namespace sss::stress

@@ -1,0 +1,208 @@
+"""What the two programs make of hard meshes and too little memory, as rows of a report."""
+
+import json
+import os
+import pathlib
+import re
+import resource
+import subprocess
+import sys
+import tempfile
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "cli"))
+
+from hard_meshes import BOX, CORNERS, FACES, HARD_MESHES, REFUSED, RENDERS, grid, joined, moved, obj
+from harness import BIN, SHARED
+
+BAD_INPUT, RESOURCES = 3, 5
+TIMEOUT_SECONDS = 900
+SIGNALS = "died of a signal"
+
+
+class Row:
+    """As numbers/report.h: how far the worst of the cases was off, against what it may be."""
+
+    def __init__(self, subject, name, limit=0):
+        self.subject, self.name, self.limit = subject, name, limit
+        self.cases, self.worst, self.worst_at = 0, 0, ""
+
+    def add(self, figure, where=""):
+        self.cases += 1
+        if figure > self.worst:
+            self.worst, self.worst_at = figure, where
+
+    def expect(self, complaint):
+        """`complaint` is empty if all is well."""
+        self.add(1 if complaint else 0, complaint)
+
+    def json(self):
+        return {"subject": self.subject, "name": self.name, "cases": self.cases,
+                "worst": self.worst, "limit": self.limit, "worstAt": self.worst_at,
+                "passed": self.cases > 0 and self.worst <= self.limit}
+
+
+def run(folder, program, *arguments, address_space=None):
+    """(exit code, standard error) of a program; `address_space`: bytes it may map."""
+    def limit():
+        if address_space is not None:
+            resource.setrlimit(resource.RLIMIT_AS, (address_space, address_space))
+    done = subprocess.run([str(BIN / program), *map(str, arguments)], cwd=folder, preexec_fn=limit,
+                          stdin=subprocess.DEVNULL, capture_output=True, timeout=TIMEOUT_SECONDS)
+    return done.returncode, done.stderr.decode(errors="replace")
+
+
+def scene(objects, spacing=None):
+    quality = {"tolerance": 0.2, "bounces": 0, "irradianceSamples": 4}
+    if spacing:
+        quality["spacingMm"] = spacing
+    return json.dumps({
+        "metersPerUnit": 0.001,
+        "camera": {"position": [11, 9, 33], "lookAt": [0, 0, 0], "fovDegrees": 40},
+        "film": {"width": 12, "height": 12, "samples": 1, "filter": "box"},
+        "quality": quality,
+        "materials": {"stone": {"type": "translucent", "medium": "Marble"}},
+        "objects": objects, "lights": [{"type": "environment", "radiance": 1}]})
+
+
+def mesh_object(file="mesh.obj", height=10, **more):
+    return {"name": "thing", "mesh": str(file), "material": "stone",
+            "transform": [{"fit": {"height": height, "centre": [0, 0, 0]}}], **more}
+
+
+def complaint_of_refusal(code, words, pattern):
+    """Empty if a run ended with one sentence, and one of the documented codes."""
+    errors = [line for line in words.splitlines() if line.startswith("ERROR")]
+    if code not in (BAD_INPUT, RESOURCES):
+        return f"exit code {code}: {words[-300:]}"
+    if len(errors) != 1 or not re.search(pattern, errors[0], re.IGNORECASE):
+        return f"not said clearly: {words[-300:]}"
+    return ""
+
+
+def complaint_of_picture(folder):
+    """Empty if the cache of scene.json renders to something, all of it numbers."""
+    code, words = run(folder, "sss-render", "scene.json", "--cache", "a.ssc", "-o", "a.exr",
+                      "--stats", "stats.json", "--no-keep")
+    if code != 0:
+        return f"sss-render ended with {code}: {words[-300:]}"
+    counts = json.loads((folder / "stats.json").read_text())["counts"]
+    return f"{counts['nan']} samples were not finite" if counts["nan"] else ""
+
+
+def complaint_of_mesh(folder, text, outcome, pattern):
+    (folder / "mesh.obj").write_text(text)
+    (folder / "scene.json").write_text(scene([mesh_object()]))
+    (folder / "a.ssc").unlink(missing_ok=True)
+    code, words = run(folder, "sss-preprocess", "scene.json", "-o", "a.ssc")
+    if outcome == REFUSED:
+        left = "; a file was left" if (folder / "a.ssc").exists() else ""
+        return complaint_of_refusal(code, words, pattern) + left
+    if code != 0:
+        return f"sss-preprocess ended with {code}: {words[-300:]}"
+    if not re.search(pattern, words, re.IGNORECASE):
+        return f"nothing said of it: {words[-300:]}"
+    return complaint_of_picture(folder)
+
+
+def hard_meshes(folder):
+    row = Row("meshes", "hard meshes: rendered, or refused in one sentence")
+    for name, (text, outcome, pattern) in HARD_MESHES.items():
+        complaint = complaint_of_mesh(folder, text, outcome, pattern)
+        row.expect(complaint and f"{name}: {complaint}")
+    yield row
+
+
+def touching_bodies(folder):
+    """Two boxes that share a face, as one body and as two."""
+    row = Row("meshes", "two touching bodies, in one group and in two")
+    (folder / "mesh.obj").write_text(obj(*BOX))
+    for groups in (("g", "g"), (None, None)):
+        objects = []
+        for i, group in enumerate(groups):
+            one = {"name": f"half {i}", "mesh": "mesh.obj", "material": "stone",
+                   "transform": [{"translate": [10 * i - 10, -5, -5]}]}
+            objects.append({**one, "group": group} if group else one)
+        (folder / "scene.json").write_text(scene(objects))
+        code, words = run(folder, "sss-preprocess", "scene.json", "-o", "a.ssc")
+        row.expect(f"ended with {code}: {words[-300:]}" if code else complaint_of_picture(folder))
+    yield row
+
+
+def too_little_memory(folder, steps):
+    """Pass 1 under ever less address space: it ends with the code for it, and the old cache stays."""
+    row = Row("memory", "sss-preprocess with too little address space: exit 5, old cache whole")
+    (folder / "mesh.obj").write_text(obj(*BOX))
+    (folder / "scene.json").write_text(scene([mesh_object()], spacing=0.05))
+    code, words = run(folder, "sss-preprocess", "scene.json", "-o", "a.ssc",
+                      address_space=3 << 30)
+    if code != 0:
+        return  # a sanitizer's shadow needs more: nothing to learn there
+    least = 32 << 20  # for the shared libraries to start
+    while run(folder, "sss-preprocess", "--version", address_space=least)[0] != 0:
+        least += 4 << 20
+    before = sorted(folder.iterdir())
+    (folder / "a.ssc").write_bytes(b"old")
+    for step in range(steps):
+        limit = least + step * (250 << 20) // steps
+        code, words = run(folder, "sss-preprocess", "scene.json", "-o", "a.ssc",
+                          address_space=limit)
+        is_old = (folder / "a.ssc").read_bytes() == b"old"
+        fine = (code == RESOURCES and is_old) or (code == 0 and not is_old)
+        row.expect("" if fine and sorted(folder.iterdir()) == before
+                   else f"{limit >> 20} MiB: exit code {code}, {words[-300:]}")
+        (folder / "a.ssc").write_bytes(b"old")
+    yield row
+
+
+def over_the_limit(folder):
+    """More points than there is memory for are refused before they are placed."""
+    row = Row("memory", "more points than allowed, or than there is memory for: refused with both numbers")
+    (folder / "mesh.obj").write_text(obj(*BOX))
+    (folder / "scene.json").write_text(scene([mesh_object()], spacing=1e-4))
+    for arguments, pattern in (
+            ((), r"would need \d+ points.*limit is 20000000.*--max-points"),
+            (("--max-points", 10 ** 12), r"would need \d+ points.*GB of memory.*there are.*--spacing"),
+            (("--spacing", 0.5, "--max-points", 100), r"would need \d+ points.*limit is 100;")):
+        code, words = run(folder, "sss-preprocess", "scene.json", "-o", "b.ssc", *arguments)
+        row.expect(complaint_of_refusal(code, words, pattern) if code == RESOURCES
+                   else f"exit code {code}: {words[-300:]}")
+    yield row
+
+
+def large_meshes(folder):
+    """A million triangles; the shared meshes, where they are."""
+    row = Row("meshes", "2 x 10^6 triangles, and the four shared meshes")
+    (folder / "mesh.obj").write_text(grid(700))
+    files = [folder / "mesh.obj"] + sorted((SHARED / "meshes").glob("*.*"))
+    for file in files:
+        height = 1 if file.name == "mesh.obj" else 10
+        (folder / "scene.json").write_text(scene([mesh_object(file, height)]))
+        code, words = run(folder, "sss-preprocess", "scene.json", "-o", "a.ssc")
+        complaint = f"ended with {code}: {words[-300:]}" if code else complaint_of_picture(folder)
+        row.expect(complaint and f"{file.name}: {complaint}")
+    yield row
+
+
+def all_rows(full):
+    with tempfile.TemporaryDirectory(prefix="sss-stress-") as name:
+        folder = pathlib.Path(name)
+        yield from hard_meshes(folder)
+        yield from touching_bodies(folder)
+        yield from over_the_limit(folder)
+        yield from too_little_memory(folder, 100 if full else 12)
+        if full:
+            yield from large_meshes(folder)
+
+
+def main():
+    failed = False
+    for row in all_rows("--full" in sys.argv):
+        result = row.json()
+        failed |= not result["passed"]
+        print("ok    " if result["passed"] else "FAILED", result["subject"], "|", result["name"], "|",
+              result["cases"], "cases", result["worstAt"], flush=True)
+    sys.exit(1 if failed else 0)
+
+
+if __name__ == "__main__":
+    main()

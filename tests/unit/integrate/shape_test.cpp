@@ -1,0 +1,203 @@
+// Diffusion on the shape, from the light that enters to whole pictures.
+#include "sss/base/error.h"
+#include "sss/integrate/cloud_cache.h"
+#include "sss/optics/fresnel.h"
+#include "support/temporary_folder.h"
+#include "unit/integrate/cache_maker.h"
+#include "unit/integrate/pass_maker.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numeric>
+
+namespace sss {
+namespace {
+
+using testing::grey;
+using testing::MadeClouds;
+using testing::SceneMaker;
+using testing::TemporaryFolder;
+
+TranslucentMaterial onShape(TranslucentMaterial material) {
+    material.onShape = true;
+    return material;
+}
+
+// A ball under a sky of radiance 1, as a camera far away sees it.
+SceneMaker ballUnderSky(const TranslucentMaterial& material, double radius) {
+    SceneMaker maker;
+    maker.object(SphereShape{radius}, maker.material(material));
+    maker.light(EnvironmentLight{Rgb(1), {}, 0});
+    maker.scene.camera.position = {0, 0, 30 * radius};
+    maker.scene.camera.lookAt = {0, 0, 0};
+    maker.scene.camera.fovDegrees = 2.6;  // within the ball's outline
+    maker.scene.film.samples = 64;
+    maker.scene.quality.tolerance = 0.02;
+    return maker;
+}
+
+DRgb meanOf(const LayeredImage& image) {
+    DRgb sum{0};
+    for (int y = 0; y < image.height; ++y)
+        for (int x = 0; x < image.width; ++x)
+            for (int c = 0; c < 3; ++c) sum[c] += testing::value(image, "", x, y, c);
+    return sum / static_cast<double>(image.width * image.height);
+}
+
+// Without absorption, what is reflected, scattered once or more often, and seen straight through
+// add up to the sky, however thin the ball.
+TEST(Shape, WhiteFurnace) {
+    for (const double radius : {0.5, 2.0, 8.0})
+        for (const bool single : {false, true}) {
+            TranslucentMaterial white = onShape(grey(0, 1, 1.4));
+            white.singleScattering = single;
+            const DRgb seen = meanOf(testing::picture(ballUnderSky(white, radius).scene));
+            for (int c = 0; c < 3; ++c)
+                EXPECT_NEAR(seen[c], 1, 0.015) << radius << (single ? " single" : "");
+        }
+}
+
+// A ball in sunlight, with its points and beams.
+struct LitBall {
+    SceneMaker maker;
+    std::unique_ptr<World> world;
+    std::vector<std::unique_ptr<BodyOptics>> optics;
+    BodyCloud cloud;
+    EnteredBeams beams;
+
+    LitBall(const TranslucentMaterial& material, const DVec3& sun) {
+        maker.object(SphereShape{5}, maker.material(material),
+                     testing::moved({3, 1, -2}) * testing::turned(40, {1, 1, 0}));
+        maker.light(DirectionalLight{sun, Rgb(2)});
+        maker.scene.quality.spacingMm = 0.5;
+        SilentReporter silent;
+        world = std::make_unique<World>(maker.scene, silent);
+        optics = makeBodyOptics(*world);
+        BodyReport report;
+        const SurfaceSamples samples = placePoints(*world, 0, *optics[0], {}, silent, report);
+        IrradianceResult light = lightPoints(*world, 0, samples, optics, silent, report);
+        cloud = buildCloud(samples, std::move(light.irradiance), report);
+        beams = std::move(light.beams);
+        // The cloud's points stand in the order of its octree; beams follow the samples.
+        order = samples.points;
+    }
+    std::vector<SurfacePoint> order;
+};
+
+// In sunlight all of a point's beams are the sun's direction, refracted.
+TEST(EnteredBeams, AreTheRefractedSun) {
+    const double eta = 1.4;
+    const DVec3 sun = glm::normalize(DVec3(0.3, -1, 0.2));
+    const LitBall ball(onShape(grey(0.1, 2, eta)), sun);
+    const RigidTransform bodyFromWorld = ball.world->bodies()[0].worldFromBody.inverse();
+    const DVec3 inBody = bodyFromWorld.transformDirection(sun);
+    ASSERT_EQ(ball.beams.directions.size(), ball.order.size() * EnteredBeams::kPerPoint);
+    int lit = 0;
+    for (std::size_t p = 0; p < ball.order.size(); ++p) {
+        const DVec3 normal = glm::normalize(DVec3(ball.order[p].position));
+        const double cosine = -glm::dot(inBody, normal);
+        if (cosine < 0.1) continue;  // its cell may reach into the shadow
+        ++lit;
+        const double inside = std::sqrt(1 - (1 - cosine * cosine) / (eta * eta));
+        const DVec3 refracted = (inBody + cosine * normal) / eta - inside * normal;
+        // Each beam is of one place in the cell, 0.5 mm across on a ball of 5 mm.
+        for (const std::uint32_t beam : ball.beams.of(p))
+            ASSERT_GT(glm::dot(DVec3(decodeUnitVector(beam)), refracted), std::cos(0.1));
+    }
+    EXPECT_GT(lit, 100);
+}
+
+// All light that enters scatters, is absorbed where it would have scattered, or leaves.
+TEST(BeamSources, KeepTheLight) {
+    for (const double albedo : {0.5, 1.0})
+        for (const double extinction : {0.05, 0.4, 5.0}) {
+            const LitBall ball(onShape(grey((1 - albedo) * extinction, albedo * extinction, 1.3)),
+                               {0, -1, 0});
+            const Medium& medium = ball.optics[0]->material.medium;
+            const DiffusionConstants constants =
+                diffusionConstants(medium, exactFresnelMoments(medium.eta));
+            const BeamSources light =
+                placeBeamSources(*ball.world, 0, ball.cloud.view(), ball.beams, constants);
+            ASSERT_GT(light.entered[0], 0);
+            EXPECT_NEAR((light.scattered[0] / albedo + light.unscattered[0]) / light.entered[0], 1,
+                        3e-4)
+                << albedo << ' ' << extinction;
+            double sum = 0;
+            for (const VolumeSource& s : light.sources) {
+                sum += double{s.power.x};
+                ASSERT_LT(glm::length(s.position), 5.001f);
+            }
+            EXPECT_NEAR(sum / light.scattered[0], 1, 1e-5);
+        }
+}
+
+Scene twoBalls() {
+    SceneMaker maker;
+    maker.object(SphereShape{3}, maker.material(onShape(testing::measured("Marble"))));
+    maker.object(SphereShape{2}, maker.material(testing::measured("Skimmilk")),
+                 testing::moved({5, 0, 0}));
+    maker.light(DirectionalLight{{-1, -1, -1}, Rgb(2)});
+    maker.scene.camera.position = {2, 3, 20};
+    maker.scene.quality.spacingMm = 0.4;
+    return maker.scene;
+}
+
+// The correction goes through the cache: the picture from the file is that of the memory.
+TEST(ShapeCache, GivesTheSamePicture) {
+    const TemporaryFolder folder;
+    SilentReporter silent;
+    const World world(twoBalls(), silent);
+    const auto optics = makeBodyOptics(world);
+    const MadeClouds made(world, optics);
+    EXPECT_FALSE(made.clouds[0].correction.empty());
+    EXPECT_TRUE(made.clouds[1].correction.empty());
+    testing::writeCache(folder / "c.sss", world, optics, made.clouds, made.reports);
+    const bool through = optics[0]->seesThrough;
+    const LayeredImage direct =
+        testing::renderFrom(world, optics, [&](std::size_t b) { return made.clouds[b].view(); });
+    const auto fresh = makeBodyOptics(world);
+    const CloudCache cache(folder / "c.sss", world, fresh);
+    EXPECT_EQ(fresh[0]->seesThrough, through);
+    const LayeredImage fromFile =
+        testing::renderFrom(world, fresh, [&](std::size_t b) { return cache.view(b); });
+    ASSERT_EQ(fromFile.layers.size(), direct.layers.size());
+    for (std::size_t l = 0; l < direct.layers.size(); ++l)
+        EXPECT_EQ(fromFile.layers[l].values, direct.layers[l].values) << direct.layers[l].name;
+}
+
+// A cache that was made for the profile knows nothing of the shape.
+TEST(ShapeCache, OfTheProfileIsRefused) {
+    const TemporaryFolder folder;
+    SilentReporter silent;
+    Scene flat = twoBalls();
+    for (NamedMaterial& m : flat.materials)
+        std::get<TranslucentMaterial>(m.material).onShape = false;
+    const World before(flat, silent);
+    const auto flatOptics = makeBodyOptics(before);
+    const MadeClouds made(before, flatOptics);
+    testing::writeCache(folder / "c.sss", before, flatOptics, made.clouds, made.reports);
+    const World world(twoBalls(), silent);
+    const auto optics = makeBodyOptics(world);
+    try {
+        const CloudCache cache(folder / "c.sss", world, optics);
+        FAIL() << "taken";
+    } catch (const Error& e) {
+        EXPECT_NE(std::string(e.what()).find("model of diffusion"), std::string::npos) << e.what();
+    }
+}
+
+// Without an inside there is no shape to solve on: the profile serves.
+TEST(Shape, OpenBodiesKeepTheProfile) {
+    SceneMaker maker;
+    maker.object(RectangleShape{8, 8}, maker.material(onShape(testing::measured("Marble"))));
+    maker.light(DirectionalLight{{0, 0, -1}, Rgb(2)});
+    const World world = maker.world();
+    const auto optics = makeBodyOptics(world);
+    EXPECT_FALSE(optics[0]->onShape);
+    const MadeClouds made(world, optics);
+    EXPECT_TRUE(made.clouds[0].correction.empty());
+}
+
+}  // namespace
+}  // namespace sss
