@@ -1,16 +1,8 @@
 // sss-preprocess: pass 1. Wiring only; the work is in libsss.
 #include "options.h"
-#include "sss/app/pass_one.h"
+#include "preprocess_frames.h"
 #include "sss/app/program.h"
-#include "sss/app/run_stats.h"
-#include "sss/app/terminal_reporter.h"
-#include "sss/base/atomic_file.h"
-#include "sss/base/parallel.h"
-#include "sss/cloud/ply_export.h"
 #include "sss/integrate/cloud_cache.h"
-#include "sss/integrate/preprocess.h"
-#include "sss/scene/material_override.h"
-#include "sss/scene/scene_reader.h"
 
 #include <fmt/core.h>
 
@@ -48,33 +40,6 @@ void printInfo(const PreprocessOptions& options) {
     }
 }
 
-void applyOverrides(Scene& scene, const PreprocessOptions& options) {
-    if (options.tolerance) scene.quality.tolerance = *options.tolerance;
-    if (options.spacingMm) scene.quality.spacingMm = *options.spacingMm;
-    if (options.seed) scene.quality.seed = *options.seed;
-    if (!options.model.empty()) setModel(scene, options.model, "--model");
-    if (options.boundary) setBoundary(scene, *options.boundary);
-}
-
-// Points of all bodies, in the world's space moved back to the scene's.
-void exportPoints(const std::filesystem::path& path, const World& world,
-                  std::span<const BodyCloud> clouds) {
-    std::vector<Vec3> positions, normals;
-    std::vector<float> areas;
-    std::vector<Rgb> irradiances;
-    for (std::size_t b = 0; b < clouds.size(); ++b) {
-        const RigidTransform& move = world.bodies()[b].worldFromBody;
-        for (std::size_t i = 0; i < clouds[b].points.size(); ++i) {
-            const SurfacePoint& p = clouds[b].points[i];
-            positions.push_back(Vec3(move.transformPoint(DVec3(p.position)) + world.originMm()));
-            normals.push_back(Vec3(move.transformDirection(DVec3(decodeUnitVector(p.normal)))));
-            areas.push_back(p.areaMm2);
-            irradiances.push_back(clouds[b].irradiance[i]);
-        }
-    }
-    exportPly(path, {positions, normals, areas, irradiances});
-}
-
 int run(int argc, const char* const* argv) {
     const auto options = readOptions(argc, argv);
     if (!options) return 0;
@@ -82,37 +47,7 @@ int run(int argc, const char* const* argv) {
         printInfo(*options);
         return 0;
     }
-    RunStats stats("sss-preprocess");
-    TerminalOptions terminal;
-    terminal.quiet = options->quiet;
-    TerminalReporter reporter(terminal);
-    const ThreadLimit threads(options->threads);
-    for (const auto& output : {options->cache, options->stats, options->exportPly})
-        if (!output.empty()) requireWritable(output);
-
-    std::optional<World> world;
-    {
-        const auto timer = stats.seconds("scene");
-        Scene scene = readScene(options->scene, options->metersPerUnit);
-        applyOverrides(scene, *options);
-        world.emplace(scene, reporter);
-    }
-    if (world->bodies().empty())
-        reporter.warn("scene", "no object is translucent: there is nothing to cache");
-    const auto optics = makeBodyOptics(*world);
-    const PassOne made = runPassOne(*world, optics, {options->maxPoints}, reporter, stats);
-    {
-        const auto timer = stats.seconds("write");
-        if (!options->exportPly.empty()) exportPoints(options->exportPly, *world, made.clouds);
-        writeCloudCache(options->cache, *world, made.clouds, made.reports, optics);
-    }
-    stats.value("threads", ThreadLimit::current());
-    reporter.info(
-        "cache",
-        fmt::format("wrote {} ({:.3g} MB)", options->cache.string(),
-                    static_cast<double>(std::filesystem::file_size(options->cache)) / 1e6));
-    if (!options->stats.empty()) stats.writeStats(options->stats);
-    if (options->strict) reporter.requireNoWarnings();
+    preprocessFrames(*options);
     return 0;
 }
 

@@ -1,13 +1,19 @@
 #pragma once
+#include "sss/app/terminal_reporter.h"
 #include "sss/medium/profile.h"
 
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <vector>
 
 struct PreprocessOptions {
     std::filesystem::path scene;
-    std::filesystem::path cache;
+    std::filesystem::path cache;  ///< a file, a name with ####, or a folder
+    std::vector<int> frames;      ///< empty: frame 1 alone
+    bool explain = false;
+    bool printEstimate = false;
+    sss::ProgressStyle progress = sss::ProgressStyle::Automatic;
     std::filesystem::path info;  ///< --info: describe this cache and do nothing else
     std::filesystem::path exportPly;
     std::filesystem::path stats;

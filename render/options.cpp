@@ -1,6 +1,7 @@
 #include "options.h"
 
 #include "sss/base/error.h"
+#include "sss/base/frame_list.h"
 #include "sss/base/near_name.h"
 #include "sss/integrate/integrator_table.h"
 #include "sss/scene/material_override.h"
@@ -25,8 +26,18 @@ Input
   SCENE                   scene file (JSON, see scenes/README.md)
   --cache CACHE           made by sss-preprocess from this scene [made in memory]; what the frame
                           computes is kept in CACHE.exitance for the next one
-  --no-keep               ... or not
+  --cache DIR/            a folder of stages (points, irradiance, exitance), each used as long as
+                          what it depends on is the same, and made when it is not there
+  --cache-only            ... or an error (3) if pass 1 would have to be made
+  --no-keep               do not read or keep exitance
   --meters-per-unit M     length of a scene unit [the scene's metersPerUnit; m]
+
+Frames of an animated scene (scenes/README.md)
+  --frames LIST           1-24, 1-100x2, 10-1x-1, 1,5,9-12; OUT and CACHE take the number in place
+                          of #### or %04d [one picture, of frame 1]
+  --resume                skip frames whose picture is there, whole, and of this scene
+  --camera-seed N         of the camera's noise, the same in all frames [each frame's own]
+  --explain               print which stages each frame reused, and why others were made
 
 Quality
   --integrator NAME       cached: diffusion by the point cloud; bssrdf: the same sample by sample,
@@ -73,12 +84,14 @@ Output
 Run
   --threads N             0 = all cores [0]
   --quiet                 only warnings
+  --progress HOW          plain lines, json lines, none [a bar on a terminal, else plain]
   --strict                exit 6 if there was any warning
   --help, --version
 
 Examples
   sss-render scenes/bunny/demo.json -o bunny.exr
   sss-render scenes/bunny/demo.json --cache bunny.ssc -o bunny.exr --stats bunny.json
+  sss-render scenes/turntable/turntable.json --frames 1-24 --cache turn/ -o turn/####.exr --resume
   sss-render scenes/still-life/still-life.json -o small.exr --size 256x256 --samples 16
   sss-render --profile Marble --model better_dipole --csv > marble.csv
   sss-render --compare bunny.exr truth.exr --layer diffusion --mask A --error-image error.png
@@ -168,7 +181,16 @@ void checkIntegrator(const std::string& name) {
                      sss::nameHint(name, names));
 }
 
+void checkFrames(const RenderOptions& o) {
+    if (o.frames.size() > 1 && !sss::hasFrameField(o.output.string()))
+        usage("--output", fmt::format("{} would hold the last of {} frames only: give the number a "
+                                      "place (####)",
+                                      o.output.string(), o.frames.size()));
+    if (o.cacheOnly && o.cache.empty()) usage("--cache-only", "goes with --cache");
+}
+
 void check(const RenderOptions& o) {
+    checkFrames(o);
     if (o.integrator) checkIntegrator(*o.integrator);
     if (o.scene.empty()) usage("SCENE", "no scene file given");
     if (o.output.empty()) usage("--output", "no picture given (-o OUT.exr)");
@@ -189,12 +211,18 @@ std::optional<RenderOptions> readOptions(int argc, const char* const* argv) {
     CLI::App app;
     app.set_help_flag();
     bool help = false, version = false;
-    std::string size, radii, boundary;
+    std::string size, radii, boundary, frames, progress;
     app.add_flag("-h,--help", help);
     app.add_flag("--version", version);
     app.add_option("scene", o.scene);
     app.add_option("--cache", o.cache);
     app.add_flag("--no-keep", o.noKeep);
+    app.add_flag("--cache-only", o.cacheOnly);
+    auto* framesOption = app.add_option("--frames", frames);
+    app.add_flag("--resume", o.resume);
+    app.add_option("--camera-seed", o.cameraSeed)->check(CLI::NonNegativeNumber);
+    app.add_flag("--explain", o.explain);
+    app.add_option("--progress", progress);
     app.add_option("-o,--output", o.output);
     app.add_option("--stats", o.stats);
     app.add_option("--samples", o.samples);
@@ -233,6 +261,8 @@ std::optional<RenderOptions> readOptions(int argc, const char* const* argv) {
         return std::nullopt;
     }
     readSize(size, o);
+    if (framesOption->count() > 0) o.frames = sss::parseFrames(frames, "--frames");
+    if (!progress.empty()) o.progress = sss::progressStyle(progress, "--progress");
     if (!boundary.empty()) o.profile.boundary = sss::boundaryModel(boundary, "--boundary");
     if (!radii.empty()) o.profile.radiiMm = readRadii(radii);
     checkMaterials(o, radiiOption->count() > 0);

@@ -1,16 +1,24 @@
 #pragma once
 #include "compare_pictures.h"
 #include "material_argument.h"
+#include "sss/app/terminal_reporter.h"
 
 #include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 struct RenderOptions {
     std::filesystem::path scene;
-    std::filesystem::path cache;  ///< empty = made in memory
-    bool noKeep = false;          ///< exitance is neither read from beside the cache nor written
+    std::filesystem::path cache;  ///< a file, a name with ####, or a folder; empty = in memory
+    std::vector<int> frames;      ///< empty: one picture, of frame 1
+    std::optional<std::uint64_t> cameraSeed;
+    bool cacheOnly = false;
+    bool explain = false;
+    bool resume = false;
+    sss::ProgressStyle progress = sss::ProgressStyle::Automatic;
+    bool noKeep = false;  ///< exitance is neither read from beside the cache nor written
     std::filesystem::path output;
     std::filesystem::path stats;
     std::optional<int> samples;

@@ -2,8 +2,8 @@
 # Every test of the project. Installs what is missing, builds what has changed, runs:
 #   release build and all its tests, the benchmark's plumbing among them; clang-format; all tests
 #   under the address and undefined-behaviour sanitizers.
-# --quick leaves out all but the first; --full adds the parallel parts under the thread sanitizer
-# and clang-tidy. Exit code 0 only if everything passed.
+# --quick leaves out all but the first; --full adds the parallel parts under the thread sanitizer,
+# 200 kills of each program, and clang-tidy. Exit code 0 only if everything passed.
 set -uo pipefail
 source "$(dirname -- "${BASH_SOURCE[0]}")/../scenes/setup.sh"
 
@@ -58,6 +58,7 @@ if [[ $scope != quick ]]; then
 fi
 if [[ $scope == full ]]; then
     step "thread sanitizer" build_and_test tsan parallel_tests
+    step "200 kills" /usr/bin/python3 "$SSS_ROOT/tests/cli/kill_test.py" 200
     step "clang-tidy" /usr/bin/python3 "$SSS_ROOT/tests/tidy.py" "$SSS_ROOT" "$SSS_ROOT/build/release"
 fi
 

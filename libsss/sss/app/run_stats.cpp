@@ -75,6 +75,10 @@ double RunStats::wallSeconds(std::string_view phase) const {
     return valueOf(phases_, phase).wallSeconds;
 }
 
+double RunStats::wallSeconds() const { return secondsSince(began_); }
+
+double RunStats::cpuSeconds() const { return processCpuSeconds(); }
+
 std::uint64_t RunStats::counter(std::string_view name) const {
     const std::lock_guard lock(mutex_);
     return valueOf(counters_, name).amount;

@@ -43,6 +43,9 @@ public:
     void value(std::string_view name, JsonValue value);
 
     double wallSeconds(std::string_view phase) const;
+    /// Since the start.
+    double wallSeconds() const;
+    double cpuSeconds() const;
     std::uint64_t counter(std::string_view name) const;
 
     /// {"program", "seconds": {phase..., "total"}, "cpuSeconds": {phase..., "total"},

@@ -2,6 +2,7 @@
 
 #include "sss/app/log_line.h"
 #include "sss/base/error.h"
+#include "sss/base/json.h"
 
 #include <fmt/core.h>
 #include <unistd.h>
@@ -27,6 +28,14 @@ int percent(double fraction) {
 
 }  // namespace
 
+ProgressStyle progressStyle(std::string_view name, const std::string& where) {
+    if (name == "plain") return ProgressStyle::Plain;
+    if (name == "json") return ProgressStyle::Json;
+    if (name == "none") return ProgressStyle::None;
+    throw Error(ErrorKind::Usage, where, fmt::format("\"{}\" is no way to tell progress", name),
+                "say plain, json or none");
+}
+
 std::string timeLeftText(double seconds) {
     if (!(seconds >= 0)) return {};
     if (seconds < 99.5) return fmt::format("{:.0f} s left", seconds);
@@ -35,7 +44,8 @@ std::string timeLeftText(double seconds) {
 }
 
 TerminalReporter::TerminalReporter(TerminalOptions options) : options_(std::move(options)) {
-    isTerminal_ = options_.isTerminal.value_or(isatty(fileno(options_.stream)) == 1);
+    isTerminal_ = options_.progress == ProgressStyle::Automatic &&
+                  options_.isTerminal.value_or(isatty(fileno(options_.stream)) == 1);
     if (!options_.elapsedSeconds) options_.elapsedSeconds = stopwatch();
 }
 
@@ -59,7 +69,7 @@ void TerminalReporter::warn(std::string_view module, std::string_view sentence) 
 void TerminalReporter::progress(std::string_view phase, double fraction, double secondsLeft,
                                 bool done) {
     const std::lock_guard lock(mutex_);
-    if (options_.quiet) return;
+    if (options_.quiet || options_.progress == ProgressStyle::None) return;
     const double now = options_.elapsedSeconds();
     if (phase != phase_) {
         phase_ = phase;
@@ -71,7 +81,12 @@ void TerminalReporter::progress(std::string_view phase, double fraction, double 
     } else {
         const bool isDue = now - phaseBegan_ >= kShortPhaseSeconds &&
                            (!isPhasePrinted_ || now - lastPrinted_ >= kPrintEverySeconds);
-        if (done ? isPhasePrinted_ : isDue) {
+        const bool isJson = options_.progress == ProgressStyle::Json;
+        if (isJson && (done || isDue)) {
+            printJson(phase, fraction, done ? 0.0 : secondsLeft);
+            isPhasePrinted_ = true;
+            lastPrinted_ = now;
+        } else if (!isJson && (done ? isPhasePrinted_ : isDue)) {
             const std::string left = done ? std::string() : timeLeftText(secondsLeft);
             printLine("PROGRESS", phase,
                       fmt::format("{}%{}{}", percent(fraction), left.empty() ? "" : ", ", left));
@@ -99,6 +114,15 @@ void TerminalReporter::printLine(std::string_view level, std::string_view module
                                  std::string_view sentence) {
     eraseBar();
     const std::string line = logLine(level, options_.elapsedSeconds(), module, sentence);
+    std::fwrite(line.data(), 1, line.size(), options_.stream);
+    std::fflush(options_.stream);
+}
+
+void TerminalReporter::printJson(std::string_view phase, double fraction, double secondsLeft) {
+    JsonValue event = JsonValue::object();
+    event.set("phase", phase).set("fraction", fraction);
+    if (secondsLeft >= 0) event.set("secondsLeft", secondsLeft);
+    const std::string line = dump(event, -1) + '\n';
     std::fwrite(line.data(), 1, line.size(), options_.stream);
     std::fflush(options_.stream);
 }

@@ -11,16 +11,22 @@
 
 namespace sss {
 
+/// How progress is told: a bar on a terminal and lines elsewhere, lines, lines of JSON, not at all.
+enum class ProgressStyle { Automatic, Plain, Json, None };
+/// "plain", "json" or "none". Throws Error{Usage} at `where`.
+ProgressStyle progressStyle(std::string_view name, const std::string& where);
+
 struct TerminalOptions {
     bool quiet = false;  ///< only warnings
     std::FILE* stream = stderr;
     std::optional<bool> isTerminal;          ///< default: what `stream` is
     std::function<double()> elapsedSeconds;  ///< default: since construction; for tests
+    ProgressStyle progress = ProgressStyle::Automatic;
 };
 
 /// The log of both programs: one line an event. On a terminal progress is a bar with the time left
 /// that redraws itself; elsewhere it is a PROGRESS line at most every 2 s, for phases over 1 s
-/// only.
+/// only; as JSON {"phase", "fraction", "secondsLeft"}, also at a phase's end.
 class TerminalReporter final : public Reporter {
 public:
     explicit TerminalReporter(TerminalOptions options = {});
@@ -38,6 +44,7 @@ public:
 
 private:
     void printLine(std::string_view level, std::string_view module, std::string_view sentence);
+    void printJson(std::string_view phase, double fraction, double secondsLeft);
     void eraseBar();
     void drawBar(std::string_view phase, double fraction, double secondsLeft);
 

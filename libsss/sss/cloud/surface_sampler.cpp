@@ -129,4 +129,17 @@ SurfaceSamples sampleSurface(const TriangleMesh& mesh, const SamplerOptions& opt
     return samples;
 }
 
+SurfaceSamples carrySamples(SurfaceSamples samples, const TriangleMesh& from,
+                            const TriangleMesh& to) {
+    for (CellPiece& piece : samples.cells.pieces)
+        piece.areaMm2 *=
+            glm::length(to.faceCross(piece.face)) / glm::length(from.faceCross(piece.face));
+    parallelFor(samples.size(), 1024, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t p = begin; p < end; ++p)
+            samples.points[p] = makePoint(to, samples.cells, p);
+    });
+    samples.inMortonOrder = false;
+    return samples;
+}
+
 }  // namespace sss

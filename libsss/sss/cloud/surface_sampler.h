@@ -11,6 +11,7 @@ namespace sss {
 struct SurfaceSamples {
     std::vector<SurfacePoint> points;
     SurfaceCells cells;
+    bool inMortonOrder = true;  ///< false once carried to another shape
 
     std::size_t size() const { return points.size(); }
 };
@@ -34,5 +35,10 @@ std::size_t expectedPointCount(double areaMm2, const SamplerOptions& options);
 /// Why centroids and areas of cells: with them the sum over points is a quadrature rule that is
 /// exact for linear functions on each cell; equal weights need 5x the points for the same error.
 SurfaceSamples sampleSurface(const TriangleMesh& mesh, const SamplerOptions& options);
+
+/// The same points on another shape of the same faces: every cell is made of the same parts of the
+/// same faces as on `from`, in the same order; centroid, area and normal follow the shape `to`.
+SurfaceSamples carrySamples(SurfaceSamples samples, const TriangleMesh& from,
+                            const TriangleMesh& to);
 
 }  // namespace sss

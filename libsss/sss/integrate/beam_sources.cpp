@@ -103,19 +103,20 @@ private:
 
 }  // namespace
 
-BeamSources placeBeamSources(const World& world, int body, const BodyCloud& cloud,
+BeamSources placeBeamSources(const World& world, int body, const BodyCloud::View& cloud,
                              const EnteredBeams& beams, const DiffusionConstants& medium) {
     const DepthRule rule(medium);
-    const std::size_t count = cloud.points.size();
+    const std::size_t count = cloud.cloud.points.size();
     std::vector<BeamSources> parts((count + kGrain - 1) / kGrain);
     parallelFor(count, kGrain, [&](std::size_t begin, std::size_t end) {
         BeamSources& part = parts[begin / kGrain];
         BeamWalk walk(world, body, medium, rule);
         for (std::size_t p = begin; p < end; ++p) {
-            const DRgb power = DRgb(cloud.irradiance[p]) * double{cloud.points[p].areaMm2};
+            const DRgb power =
+                DRgb(cloud.cloud.irradiance[p]) * double{cloud.cloud.points[p].areaMm2};
             part.entered += power;
             if (!(maxComponent(power) > 0)) continue;
-            walk.follow(cloud.points[p], beams.of(p), power, part);
+            walk.follow(cloud.cloud.points[p], beams.of(p), power, part);
         }
     });
     BeamSources all;

@@ -20,7 +20,7 @@ struct BeamSources {
 /// Follows every beam from its point through the body, by reflection at the boundary too, to where
 /// it leaves, and places sources along it (DepthRule). Light that crosses the body without a
 /// collision is no source: it is seen by looking through the body. Parallel; deterministic.
-BeamSources placeBeamSources(const World& world, int body, const BodyCloud& cloud,
+BeamSources placeBeamSources(const World& world, int body, const BodyCloud::View& cloud,
                              const EnteredBeams& beams, const DiffusionConstants& medium);
 
 }  // namespace sss

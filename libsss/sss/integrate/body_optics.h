@@ -4,6 +4,7 @@
 
 #include <array>
 #include <memory>
+#include <optional>
 
 namespace sss {
 
@@ -24,7 +25,7 @@ struct BodyOptics {
     /// Whether diffusion is solved on the body's shape: then it leaves out by itself, place by
     /// place, what is scattered once, and is not scaled.
     bool onShape = false;
-    /// Whether enough light goes straight through to be looked for (shapeCloud()).
+    /// Whether enough light goes straight through to be looked for (shapeCorrection()).
     bool seesThrough = false;
     /// By which it is scaled where it is seen at second hand and nobody looks for single
     /// scattering.
@@ -43,9 +44,9 @@ struct BodyOptics {
     float singleReachMm = 0;
 
     /// Sets seesThrough by the share of the entered light that leaves unscattered: not where that
-    /// is less than a tenth of the tolerance.
-    void lookThroughIf(double unscatteredShare, double tolerance) {
-        seesThrough = unscatteredShare > 0.1 * tolerance;
+    /// is less than a tenth of the tolerance, but where it is not known.
+    void lookThroughIf(std::optional<double> unscatteredShare, double tolerance) {
+        seesThrough = unscatteredShare.value_or(1.0) > 0.1 * tolerance;
     }
 
     std::array<const Profile*, 3> profilePointers() const {

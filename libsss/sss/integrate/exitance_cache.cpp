@@ -3,7 +3,6 @@
 #include "sss/base/error.h"
 #include "sss/cloud/cache_file.h"
 #include "sss/cloud/exitance_store.h"
-#include "sss/integrate/preprocess.h"
 #include "sss/integrate/scene_fingerprint.h"
 
 #include <fmt/core.h>
@@ -13,9 +12,6 @@ namespace {
 
 constexpr std::string_view kGroups = "exgroups", kSegments = "exsegms", kSites = "exsites",
                            kValues = "exvalues";
-// Raised when the algorithms of the diffusion sum or the sites change what they make of the same
-// input.
-constexpr std::uint64_t kExitanceVersion = 1;
 
 ExitanceStore::View storeOf(const CacheFile& cache, std::uint32_t body) {
     return {cache.section<ExitanceStore::Entry>(kGroups, body),
@@ -33,18 +29,18 @@ void write(CacheWriter& writer, std::uint32_t body, const Fingerprint& made,
 
 }  // namespace
 
-ExitanceCache::ExitanceCache(const std::filesystem::path& cloudCache, const World& world,
-                             std::span<const std::unique_ptr<BodyOptics>> optics)
-    : file_(cloudCache) {
-    file_ += ".exitance";
-    for (std::size_t b = 0; b < optics.size(); ++b) {
-        Hasher hasher;
-        hasher.add(kExitanceVersion).add(world.scene().quality.tolerance);
-        const double spacing = pointSpacingMm(world, world.bodies()[b], *optics[b]);
-        for (const InputFingerprint& input : bodyInputs(world, static_cast<int>(b), spacing))
-            hasher.add(input.value);
-        fingerprints_.push_back(hasher.finish());
-    }
+Fingerprint exitanceFingerprint(const World& world, int body, const BodyInputs& inputs) {
+    Hasher hasher;
+    hasher.add(shapeFingerprint(inputs)).add(exitanceInput(world, body).value);
+    return hasher.finish();
+}
+
+ExitanceCache::ExitanceCache(std::filesystem::path file, std::vector<Fingerprint> fingerprints)
+    : file_(std::move(file)), fingerprints_(std::move(fingerprints)) {}
+
+std::filesystem::path exitanceFileOf(const std::filesystem::path& cloudCache) {
+    std::filesystem::path file = cloudCache;
+    return file += ".exitance";
 }
 
 std::uint64_t ExitanceCache::adopt(std::span<const std::unique_ptr<BodyField>> fields) {

@@ -2,7 +2,7 @@
 #include "sss/base/hash.h"
 #include "sss/base/reporter.h"
 #include "sss/integrate/body_field.h"
-#include "sss/integrate/body_optics.h"
+#include "sss/integrate/scene_fingerprint.h"
 #include "sss/world/world.h"
 
 #include <cstdint>
@@ -13,15 +13,21 @@
 
 namespace sss {
 
-/// Radiant exitance kept beside a cache of clouds, in "CACHE.exitance": what one frame has computed
+/// Of all that the exitance of a body depends on; `inputs` of its pass 1.
+Fingerprint exitanceFingerprint(const World& world, int body, const BodyInputs& inputs);
+
+/// "CACHE.exitance".
+std::filesystem::path exitanceFileOf(const std::filesystem::path& cloudCache);
+
+/// Radiant exitance kept beside a cache of clouds: what one frame has computed
 /// serves all later ones, which add what they see for the first time. A body's part is used only if
 /// all it depends on is the same: points, light, medium, profile, tolerance. Values are the same
 /// bytes whether computed or read. Several processes may share the file: it is replaced as a whole,
 /// and what others have added is kept.
 class ExitanceCache {
 public:
-    ExitanceCache(const std::filesystem::path& cloudCache, const World& world,
-                  std::span<const std::unique_ptr<BodyOptics>> optics);
+    /// `fingerprints` by body: what its exitance depends on (exitanceFingerprint).
+    ExitanceCache(std::filesystem::path file, std::vector<Fingerprint> fingerprints);
 
     const std::filesystem::path& file() const { return file_; }
     /// Hands the fields what the file has for them; returns how many groups. A missing file is no

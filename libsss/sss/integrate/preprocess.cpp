@@ -33,25 +33,38 @@ std::vector<std::unique_ptr<BodyOptics>> makeBodyOptics(const World& world) {
 double pointSpacingMm(const World& world, const Body& body, const BodyOptics& optics) {
     const QualitySettings& quality = world.scene().quality;
     if (quality.spacingMm > 0) return quality.spacingMm;
+    const double finest =
+        world.scene().materials[static_cast<std::size_t>(body.material)].spacingMm;
+    if (finest > 0) return finest;
     const double spacing = spacingFor(optics, quality.tolerance).spacingMm;
     return std::isfinite(spacing) ? spacing : body.mesh.bounds().diagonal();
 }
 
-std::size_t expectedPoints(const World& world, const Body& body, const BodyOptics& optics) {
+std::size_t expectedPoints(const World& world, const Body& body, const BodyOptics& optics,
+                           const TriangleMesh* placedOn) {
     SamplerOptions options;
     options.spacingMm = pointSpacingMm(world, body, optics);
-    return expectedPointCount(body.mesh.area(), options);
+    return expectedPointCount((placedOn != nullptr ? *placedOn : body.mesh).area(), options);
+}
+
+void describePoints(const Body& body, const BodyOptics& optics, std::size_t points,
+                    BodyReport& report) {
+    report.name = body.name;
+    report.areaMm2 = body.mesh.area();
+    report.points = points;
+    report.spacingMm = std::sqrt(report.areaMm2 / static_cast<double>(points));
+    report.expectedQuadratureError = expectedQuadratureError(optics, report.spacingMm);
 }
 
 SurfaceSamples placePoints(const World& world, int bodyIndex, const BodyOptics& optics,
-                           const PreprocessLimits& limits, Reporter& reporter, BodyReport& report) {
+                           const PreprocessLimits& limits, Reporter& reporter, BodyReport& report,
+                           const TriangleMesh* placedOn) {
     const Body& body = world.bodies()[static_cast<std::size_t>(bodyIndex)];
+    const TriangleMesh& mesh = placedOn != nullptr ? *placedOn : body.mesh;
     SamplerOptions options;
     options.spacingMm = pointSpacingMm(world, body, optics);
     options.seed = world.scene().quality.seed;
-    report.name = body.name;
-    report.areaMm2 = body.mesh.area();
-    const std::size_t expected = expectedPoints(world, body, optics);
+    const std::size_t expected = expectedPoints(world, body, optics, placedOn);
     if (expected > limits.mostPoints)
         throw Error(ErrorKind::Resource, body.name,
                     fmt::format("would need {} points at a spacing of {:.4g} mm; the limit is {}",
@@ -67,10 +80,8 @@ SurfaceSamples placePoints(const World& world, int bodyIndex, const BodyOptics& 
                                 1e-9 * static_cast<double>(limits.mostBytes)),
                     "check the scale of the scene (metersPerUnit), raise the tolerance, or set "
                     "--spacing");
-    SurfaceSamples samples = sampleSurface(body.mesh, options);
-    report.points = samples.size();
-    report.spacingMm = std::sqrt(report.areaMm2 / static_cast<double>(samples.size()));
-    report.expectedQuadratureError = expectedQuadratureError(optics, report.spacingMm);
+    SurfaceSamples samples = sampleSurface(mesh, options);
+    describePoints(body, optics, samples.size(), report);
     reporter.info("points", fmt::format("{}: {} points, spacing {:.4g} mm, expected error {:.2g} %",
                                         body.name, report.points, report.spacingMm,
                                         100 * report.expectedQuadratureError));
@@ -97,10 +108,39 @@ IrradianceResult lightPoints(const World& world, int body, const SurfaceSamples&
     return light;
 }
 
+namespace {
+
+// How samples are sorted to be a cloud; empty if they stand so.
+std::vector<std::uint32_t> cloudOrder(const SurfaceSamples& samples) {
+    if (samples.inMortonOrder) return {};
+    std::vector<Vec3> positions;
+    for (const SurfacePoint& point : samples.points) positions.push_back(point.position);
+    return mortonOrder(positions);
+}
+
+template <typename T>
+std::vector<T> inOrder(std::vector<T> items, std::span<const std::uint32_t> order,
+                       std::size_t perPoint = 1) {
+    if (order.empty()) return items;
+    std::vector<T> sorted;
+    sorted.reserve(items.size());
+    for (const std::uint32_t i : order)
+        for (std::size_t k = 0; k < perPoint; ++k) sorted.push_back(items[i * perPoint + k]);
+    return sorted;
+}
+
+}  // namespace
+
+EnteredBeams beamsInOrder(const SurfaceSamples& samples, EnteredBeams beams) {
+    return {inOrder(std::move(beams.directions), cloudOrder(samples), EnteredBeams::kPerPoint)};
+}
+
 BodyCloud buildCloud(const SurfaceSamples& samples, std::vector<Rgb> irradiance,
                      BodyReport& report) {
+    const std::vector<std::uint32_t> order = cloudOrder(samples);
     BodyCloud cloud;
-    cloud.points = samples.points;
+    cloud.points = inOrder(samples.points, order);
+    irradiance = inOrder(std::move(irradiance), order);
     cloud.irradiance = std::move(irradiance);
     cloud.spacingMm = report.spacingMm;
     cloud.nodes = buildOctree({cloud.points, cloud.irradiance});
@@ -108,20 +148,24 @@ BodyCloud buildCloud(const SurfaceSamples& samples, std::vector<Rgb> irradiance,
     return cloud;
 }
 
-void shapeCloud(const World& world, int body, const SurfaceSamples& samples,
-                const EnteredBeams& beams, std::span<const std::unique_ptr<BodyOptics>> optics,
-                BodyCloud& cloud, Reporter& reporter, BodyReport& report) {
+std::vector<Rgb> shapeCorrection(const World& world, int body, const SurfaceSamples& samples,
+                                 const EnteredBeams& beams,
+                                 std::span<const std::unique_ptr<BodyOptics>> optics,
+                                 const BodyCloud::View& cloud, Reporter& reporter,
+                                 BodyReport& report) {
     BodyOptics& own = *optics[static_cast<std::size_t>(body)];
     std::vector<Rgb> once;
     if (own.material.singleScattering) {
         const PathTracer tracer(world, optics, nullptr);
-        once = singleExitance(world, body, samples, tracer,
-                              std::max(1, report.irradianceSamples / kLightPerSingleSample),
-                              report.counts);
+        once = inOrder(singleExitance(world, body, samples, tracer,
+                                      std::max(1, report.irradianceSamples / kLightPerSingleSample),
+                                      report.counts),
+                       cloudOrder(samples));
     }
     ShapeExitance shape = solveShape(world, body, own, cloud, beams, once);
-    cloud.correction = std::move(shape.correction);
-    own.lookThroughIf(maxComponent(shape.unscattered), world.scene().quality.tolerance);
+    std::vector<Rgb> correction = std::move(shape.correction);
+    report.unscatteredShare = maxComponent(shape.unscattered);
+    own.lookThroughIf(report.unscatteredShare, world.scene().quality.tolerance);
     const GmresReport& solve = shape.report.solve;
     const auto percent = [](const DRgb& v) {
         return fmt::format("{:.3g} {:.3g} {:.3g} %", 100 * v.x, 100 * v.y, 100 * v.z);
@@ -139,6 +183,7 @@ void shapeCloud(const World& world, int body, const SurfaceSamples& samples,
                                   "the points' spacing; set --spacing to refine",
                                   report.name, solve.iterations, maxComponent(solve.residual)));
     report.shape = std::move(shape);
+    return correction;
 }
 
 }  // namespace sss

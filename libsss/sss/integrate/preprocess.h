@@ -38,29 +38,43 @@ struct BodyReport {
     int irradianceSamples = 0;           ///< per point
     std::uint64_t nonFinite = 0;         ///< light samples dropped as NaN or infinite
     PathCounts counts;
-    std::optional<ShapeExitance> shape;  ///< without its correction
+    /// Of what enters, of the channel with most of it; none unless solved on the shape.
+    std::optional<double> unscatteredShare;
+    std::optional<ShapeExitance> shape;  ///< without its correction; none if it comes from a cache
 };
 
 /// Spacing that the points of a body get: the scene's own, or from tolerance and mean free path.
 double pointSpacingMm(const World& world, const Body& body, const BodyOptics& optics);
 
-/// About how many points that makes.
-std::size_t expectedPoints(const World& world, const Body& body, const BodyOptics& optics);
+/// About how many points that makes; `placedOn` as in placePoints().
+std::size_t expectedPoints(const World& world, const Body& body, const BodyOptics& optics,
+                           const TriangleMesh* placedOn = nullptr);
 
 // Pass 1 of one body, in its steps. Each fills its part of the report.
 
-/// Throws Error{Resource} over the limit.
+/// Throws Error{Resource} over the limit. `placedOn`, if given, has the faces of the body's mesh in
+/// another shape: there the points are placed, and carried to the body.
 SurfaceSamples placePoints(const World& world, int body, const BodyOptics& optics,
-                           const PreprocessLimits& limits, Reporter& reporter, BodyReport& report);
+                           const PreprocessLimits& limits, Reporter& reporter, BodyReport& report,
+                           const TriangleMesh* placedOn = nullptr);
+/// The part of the report that speaks of points, for those that were placed before.
+void describePoints(const Body& body, const BodyOptics& optics, std::size_t points,
+                    BodyReport& report);
+/// In the space of World::inLightSpace(), so that the same light gives the same bytes. With beams
+/// where diffusion is solved on the shape.
 IrradianceResult lightPoints(const World& world, int body, const SurfaceSamples& samples,
                              std::span<const std::unique_ptr<BodyOptics>> optics,
                              Reporter& reporter, BodyReport& report);
 BodyCloud buildCloud(const SurfaceSamples& samples, std::vector<Rgb> irradiance,
                      BodyReport& report);
-/// Diffusion on the shape of a body that asks for it (BodyOptics::onShape): fills the cloud's
-/// correction.
-void shapeCloud(const World& world, int body, const SurfaceSamples& samples,
-                const EnteredBeams& beams, std::span<const std::unique_ptr<BodyOptics>> optics,
-                BodyCloud& cloud, Reporter& reporter, BodyReport& report);
+/// Beams of samples as the points of their cloud stand.
+EnteredBeams beamsInOrder(const SurfaceSamples& samples, EnteredBeams beams);
+/// Diffusion on the shape of a body that asks for it (BodyOptics::onShape): the correction of its
+/// cloud, in the space of lightPoints(). `beams` by the cloud's points.
+std::vector<Rgb> shapeCorrection(const World& world, int body, const SurfaceSamples& samples,
+                                 const EnteredBeams& beams,
+                                 std::span<const std::unique_ptr<BodyOptics>> optics,
+                                 const BodyCloud::View& cloud, Reporter& reporter,
+                                 BodyReport& report);
 
 }  // namespace sss

@@ -34,7 +34,8 @@ public:
           integrator_(integrator),
           filter_(settings_.filter, settings_.filterRadiusPixels),
           foreground_(world, static_cast<float>(filter_.radiusPixels())),
-          seed_(combineSeeds(world.scene().quality.seed, 0xca3e7aull)) {}
+          seed_(combineSeeds(world.scene().quality.seed, 0xca3e7aull) ^
+                mix64(world.scene().quality.cameraSeed)) {}
 
     /// What is seen where nothing stands before the background.
     FilmPixel background() const {

@@ -11,22 +11,15 @@ namespace sss {
 namespace {
 
 // Raised when the algorithms of pass 1 change what they make of the same input.
-constexpr std::uint64_t kPassOneVersion = 2;
-// The same for diffusion on the shape.
-constexpr std::uint64_t kShapeVersion = 1;
+constexpr std::uint64_t kPassOneVersion = 3;
+constexpr std::uint64_t kExitanceVersion = 2;  // the same of the diffusion sum and its sites
+constexpr std::uint64_t kShapeVersion = 1;     // ... and of diffusion on the shape
 
 void add(Hasher& h, const DVec3& v) { h.add(v.x).add(v.y).add(v.z); }
 void add(Hasher& h, const Rgb& v) { add(h, DVec3(v)); }
 
-void add(Hasher& h, const TriangleMesh& mesh) {
-    h.add(std::span<const DVec3>(mesh.positions));
-    h.add(std::span<const Vec3>(mesh.normals));
-    h.add(std::span<const UVec3>(mesh.faces));
-}
-
-void add(Hasher& h, const RigidTransform& t) {
-    for (int c = 0; c < 3; ++c) add(h, t.rotation[c]);
-    add(h, t.translation);
+void add(Hasher& h, const DMat4& m) {
+    for (int c = 0; c < 4; ++c) add(h, DVec3(m[c]));
 }
 
 void addFile(Hasher& h, const std::filesystem::path& path) {
@@ -77,17 +70,26 @@ struct LightHasher {
     }
 };
 
+// The medium and its profile.
+void addDiffusion(Hasher& h, const TranslucentMaterial& m) {
+    add(h, m.medium.sigmaA);
+    add(h, m.medium.sigmaS);
+    add(h, m.medium.g);
+    h.add(m.medium.eta).add(m.profile);
+    h.add(static_cast<std::uint64_t>(m.profileOptions.boundary));
+    h.add(m.profileOptions.slabThicknessMm.value_or(-1.0));
+    h.add(m.profileOptions.surfaceAlbedo.value_or(-1.0));
+}
+
 struct MaterialHasher {
     Hasher& h;
     void operator()(const TranslucentMaterial& m) const {
         h.add("translucent");
-        add(h, m.medium.sigmaA);
-        add(h, m.medium.sigmaS);
-        add(h, m.medium.g);
-        h.add(m.medium.eta).add(m.profile);
-        h.add(static_cast<std::uint64_t>(m.profileOptions.boundary));
-        h.add(m.profileOptions.slabThicknessMm.value_or(-1.0));
-        h.add(m.profileOptions.surfaceAlbedo.value_or(-1.0));
+        addDiffusion(h, m);
+        h.add(m.roughness).add(static_cast<std::uint64_t>(m.energy));
+        h.add(std::uint64_t{m.surfaceReflection}).add(std::uint64_t{m.singleScattering});
+        h.add(std::uint64_t{m.multipleScattering});
+        add(h, m.diffuseColor.value_or(DRgb(-1)));
     }
     void operator()(const LambertianMaterial& m) const {
         h.add("lambertian");
@@ -108,7 +110,12 @@ struct MaterialHasher {
 
 Fingerprint volumesOf(const World& world) {
     Hasher h;
-    if (world.hasVolumes()) add(h, world.originMm());
+    if (world.hasVolumes()) {  // they are not cut free of rounding: where they stand counts, too
+        add(h, world.originMm());
+        const RigidTransform place = world.lightFromScene();
+        for (int c = 0; c < 3; ++c) add(h, place.rotation[c]);
+        add(h, place.translation);
+    }
     for (std::size_t v = 0; v < world.volumes().size(); ++v) {
         const VolumeSettings& settings = world.scene().volumes[v];
         // Where its cube stands, and what part of it.
@@ -131,42 +138,69 @@ Fingerprint volumesOf(const World& world) {
 
 Fingerprint lightsOf(const World& world) {
     Hasher h;
-    for (const LightSettings& light : world.scene().lights) std::visit(LightHasher{h}, light);
+    for (std::size_t k = 0; k < world.scene().lights.size(); ++k)
+        std::visit(LightHasher{h}, world.lightInLightSpace(k));
     return h.finish();
 }
 
-// Other objects, where they stand relative to the scene, and what they are made of. The body itself
-// counts with its place only: its mesh and medium are inputs of their own.
+// What a material does to light that comes from it to a body: that of emitters always, that of the
+// others if light is followed from surface to surface.
+void addReflection(Hasher& h, const World& world, const Material& material) {
+    if (std::holds_alternative<EmitterMaterial>(material) || world.scene().quality.bounces > 0)
+        std::visit(MaterialHasher{h}, material);
+}
+
+Fingerprint mediumOf(const World& world, const Body& body) {
+    Hasher h;
+    h.add(world.materialOf(body).medium.eta);
+    addReflection(h, world, world.material(body.material));
+    return h.finish();
+}
+
+// What diffusion on the shape depends on beside the light, which has eta (and so the beams) in it.
+Fingerprint shapeOf(const TranslucentMaterial& material, double tolerance) {
+    Hasher h;
+    h.add(kShapeVersion).add(tolerance);
+    addDiffusion(h, material);
+    h.add(std::uint64_t{material.singleScattering});
+    return h.finish();
+}
+
+// All objects, where they stand relative to the first body, and what the others are made of. The
+// body itself counts with its place only: its mesh and medium are inputs of their own.
 Fingerprint surroundingsOf(const World& world, int body) {
     Hasher h;
     const Body& own = world.bodies()[static_cast<std::size_t>(body)];
-    add(h, own.worldFromBody);
-    add(h, world.originMm());
     for (std::size_t k = 0; k < world.scene().objects.size(); ++k) {
-        if (std::find(own.objects.begin(), own.objects.end(), static_cast<int>(k)) !=
-            own.objects.end())
-            continue;
-        world.addGeometryTo(h, k);
-        std::visit(MaterialHasher{h}, world.material(world.scene().objects[k].material));
+        add(h, world.lightFromObject(k));
+        const bool isOwn = std::ranges::find(own.objects, static_cast<int>(k)) != own.objects.end();
+        h.add(std::uint64_t{isOwn});
+        if (isOwn) continue;
+        h.add(world.mesh(k).content);
+        addReflection(h, world, world.material(world.scene().objects[k].material));
     }
     return h.finish();
 }
 
 }  // namespace
 
-std::vector<InputFingerprint> bodyInputs(const World& world, int bodyIndex, double spacingMm) {
+BodyInputs bodyInputs(const World& world, int bodyIndex, double spacingMm,
+                      const TriangleMesh* placedOn) {
     const Body& body = world.bodies()[static_cast<std::size_t>(bodyIndex)];
     const QualitySettings& quality = world.scene().quality;
-    std::vector<InputFingerprint> inputs;
-    Hasher mesh, medium, sampling, light;
-    add(mesh, body.mesh);
+    BodyInputs inputs;
+    Hasher mesh, form, sampling, light;
+    addMesh(mesh, placedOn != nullptr ? *placedOn : body.mesh);
     inputs.push_back({"mesh", "the mesh (or its scale) is another", mesh.finish()});
-    MaterialHasher{medium}(world.materialOf(body));
-    inputs.push_back({"medium", "the medium of its material is another", medium.finish()});
     sampling.add(kPassOneVersion).add(spacingMm).add(quality.seed);
+    inputs.push_back({"sampling",
+                      "its points differ: in seed, or in spacing, by tolerance or medium",
+                      sampling.finish()});
+    addMesh(form, body.mesh);
+    inputs.push_back({"form", "it has another shape", form.finish()});
+    inputs.push_back({"medium", "the medium of its material is another", mediumOf(world, body)});
     inputs.push_back(
-        {"sampling", "spacing, tolerance or seed of the points differ", sampling.finish()});
-    inputs.push_back({"lights", "the lights are others", lightsOf(world)});
+        {"lights", "the lights are others, or stand elsewhere around it", lightsOf(world)});
     inputs.push_back({"volumes", "the volumes in space are others", volumesOf(world)});
     inputs.push_back({"surroundings", "it stands elsewhere, or other objects of the scene differ",
                       surroundingsOf(world, bodyIndex)});
@@ -175,24 +209,38 @@ std::vector<InputFingerprint> bodyInputs(const World& world, int bodyIndex, doub
     inputs.push_back(
         {"irradiance", "irradiance samples or bounces of the light pass differ", light.finish()});
     const TranslucentMaterial& material = world.materialOf(body);
-    if (material.onShape && body.closed) {
-        Hasher shape;
-        shape.add(kShapeVersion).add(quality.tolerance);
-        shape.add(std::uint64_t{material.singleScattering});
-        inputs.push_back(
-            {"shape", "it was made for another model of diffusion or tolerance", shape.finish()});
-    }
+    if (material.onShape && body.closed)
+        inputs.push_back({"shape",
+                          "it was made for another medium, model of diffusion or tolerance",
+                          shapeOf(material, quality.tolerance)});
     return inputs;
 }
 
-Fingerprint combined(const std::vector<InputFingerprint>& inputs) {
+InputFingerprint exitanceInput(const World& world, int body) {
+    Hasher h;
+    h.add(kExitanceVersion).add(world.scene().quality.tolerance);
+    MaterialHasher{h}(world.materialOf(world.bodies()[static_cast<std::size_t>(body)]));
+    return {"exitance", "the medium, its profile or the tolerance are others", h.finish()};
+}
+
+std::vector<std::string_view> pointsKeys() { return {"mesh", "sampling"}; }
+
+std::vector<std::string_view> lightKeys() {
+    return {"mesh",   "sampling", "form",         "medium",
+            "lights", "volumes",  "surroundings", "irradiance"};
+}
+
+Fingerprint pointsFingerprint(const BodyInputs& inputs) { return combined(inputs, pointsKeys()); }
+
+Fingerprint lightFingerprint(const BodyInputs& inputs) { return combined(inputs, lightKeys()); }
+
+Fingerprint shapeFingerprint(const BodyInputs& inputs) {
     Hasher h;
     for (const InputFingerprint& input : inputs) h.add(input.value);
     return h.finish();
 }
 
-Fingerprint combined(const std::vector<InputFingerprint>& inputs,
-                     const std::vector<std::string_view>& keys) {
+Fingerprint combined(const BodyInputs& inputs, const std::vector<std::string_view>& keys) {
     Hasher h;
     for (const InputFingerprint& input : inputs)
         if (std::find(keys.begin(), keys.end(), input.key) != keys.end()) h.add(input.value);

@@ -16,15 +16,30 @@ struct InputFingerprint {
     Fingerprint value;
 };
 
+using BodyInputs = std::vector<InputFingerprint>;
+
 /// Everything that the cached points and irradiance of a body depend on, and nothing else: camera
-/// and film are not among it.
-std::vector<InputFingerprint> bodyInputs(const World& world, int body, double spacingMm);
+/// and film are not among it, and of the medium only what light notices before it enters (with
+/// bounces, what the surface reflects). Places are relative to the first body (World's light
+/// space). `placedOn`: the mesh that the points were placed on, if not the body's own
+/// (carried_points.h).
+BodyInputs bodyInputs(const World& world, int body, double spacingMm,
+                      const TriangleMesh* placedOn = nullptr);
+
+/// What the exitance of a body depends on beside those.
+InputFingerprint exitanceInput(const World& world, int body);
+
+/// Keys of the inputs that points, and light, depend on.
+std::vector<std::string_view> pointsKeys();
+std::vector<std::string_view> lightKeys();
+
+/// Of the stages: points; light (beams among it) with all that comes from the two; and what
+/// diffusion on the shape makes of that, where the body asks for it (its inputs have a "shape").
+Fingerprint pointsFingerprint(const BodyInputs& inputs);
+Fingerprint lightFingerprint(const BodyInputs& inputs);
+Fingerprint shapeFingerprint(const BodyInputs& inputs);
 
 /// One fingerprint of the inputs called `keys`.
-Fingerprint combined(const std::vector<InputFingerprint>& inputs,
-                     const std::vector<std::string_view>& keys);
-
-/// One fingerprint of them all.
-Fingerprint combined(const std::vector<InputFingerprint>& inputs);
+Fingerprint combined(const BodyInputs& inputs, const std::vector<std::string_view>& keys);
 
 }  // namespace sss

@@ -9,10 +9,11 @@ namespace {
 constexpr std::size_t kReceiversPerSum = 32;
 
 // What the profile gives at the points themselves.
-std::vector<Rgb> profileExitance(const BodyField& field, const BodyCloud& cloud, double tolerance) {
+std::vector<Rgb> profileExitance(const BodyField& field, const BodyCloud::View& cloud,
+                                 double tolerance) {
     std::vector<Vec3> places;
-    places.reserve(cloud.points.size());
-    for (const SurfacePoint& p : cloud.points) places.push_back(p.position);
+    places.reserve(cloud.cloud.points.size());
+    for (const SurfacePoint& p : cloud.cloud.points) places.push_back(p.position);
     std::vector<Rgb> exitance(places.size());
     parallelFor(places.size(), kReceiversPerSum, [&](std::size_t begin, std::size_t end) {
         DiffusionSum::Scratch scratch;
@@ -32,16 +33,16 @@ FresnelMoments momentsOf(const TranslucentMaterial& material) {
 }  // namespace
 
 ShapeExitance solveShape(const World& world, int bodyIndex, const BodyOptics& optics,
-                         const BodyCloud& cloud, const EnteredBeams& beams,
+                         const BodyCloud::View& cloud, const EnteredBeams& beams,
                          std::span<const Rgb> once) {
     const Body& body = world.bodies()[static_cast<std::size_t>(bodyIndex)];
     const double tolerance = world.scene().quality.tolerance;
     const DiffusionConstants medium =
         diffusionConstants(optics.material.medium, momentsOf(optics.material));
-    const BodyField field(body, optics, cloud.view(), tolerance);
+    const BodyField field(body, optics, cloud, tolerance);
     const std::vector<Rgb> flat = profileExitance(field, cloud, tolerance);
     const BeamSources light = placeBeamSources(world, bodyIndex, cloud, beams, medium);
-    const ShapeSolver solver(cloud.view().cloud, cloud.nodes, medium, cloud.spacingMm,
+    const ShapeSolver solver(cloud.cloud, cloud.nodes, medium, cloud.spacingMm,
                              body.mesh.bounds().diagonal() * 1.01);
     std::vector<DRgb> fluence(flat.size());
     for (std::size_t i = 0; i < flat.size(); ++i) fluence[i] = DRgb(flat[i]) * medium.impedance;
@@ -54,7 +55,7 @@ ShapeExitance solveShape(const World& world, int bodyIndex, const BodyOptics& op
         DRgb exitance(0);
         for (int c = 0; c < 3; ++c)
             if (medium.scatters[c]) exitance[c] = fluence[i][c] / medium.impedance[c];
-        const double area = cloud.points[i].areaMm2;
+        const double area = cloud.cloud.points[i].areaMm2;
         all += exitance * area;
         if (!once.empty()) {
             single += DRgb(once[i]) * area;

@@ -21,7 +21,7 @@ struct ShapeExitance {
 /// the material has it on) is taken out, place by place, so that both together leave what was
 /// solved. `once`: the exitance of single scattering by point, or empty.
 ShapeExitance solveShape(const World& world, int body, const BodyOptics& optics,
-                         const BodyCloud& cloud, const EnteredBeams& beams,
+                         const BodyCloud::View& cloud, const EnteredBeams& beams,
                          std::span<const Rgb> once);
 
 }  // namespace sss

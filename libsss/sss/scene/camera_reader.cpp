@@ -1,5 +1,6 @@
 #include "sss/scene/camera_reader.h"
 
+#include "sss/scene/transform_reader.h"
 #include "sss/scene/view.h"
 
 namespace sss {
@@ -17,6 +18,7 @@ constexpr Field<CameraSettings> kCameraFields[] = {
      [](CameraSettings& c, const Node& n) { c.apertureRadiusMm = length(n, kSizeOrZeroRange); }},
     {"focusDistance",
      [](CameraSettings& c, const Node& n) { c.focusDistanceMm = length(n, kSizeRange); }},
+    {"transform"},  // read last, because it moves the others
 };
 
 }  // namespace
@@ -27,6 +29,12 @@ CameraSettings readCamera(const Node& node) {
     fields.add(camera, kCameraFields);
     fields.read(node);
     checkView(node, "position", camera.position, camera.lookAt, camera.up);
+    if (node.value.find("transform") != nullptr) {
+        const RigidTransform motion = readMotion(memberNode(node, "transform", ""));
+        camera.position = motion.transformPoint(camera.position);
+        camera.lookAt = motion.transformPoint(camera.lookAt);
+        camera.up = motion.transformDirection(camera.up);
+    }
     return camera;
 }
 

@@ -1,5 +1,7 @@
 #include "sss/scene/light_reader.h"
 
+#include "sss/scene/light_motion.h"
+#include "sss/scene/transform_reader.h"
 #include "sss/scene/view.h"
 
 #include <fmt/format.h>
@@ -11,14 +13,17 @@ namespace {
 
 constexpr std::size_t kMostLights = 1000000;
 
+// "type" chooses the table, and "transform" moves what the other keys say.
 constexpr Field<PointLight> kPointFields[] = {
     {"type"},
+    {"transform"},
     {"position", [](PointLight& l, const Node& n) { l.position = point(n); }, true},
     {"intensity", [](PointLight& l, const Node& n) { l.intensity = rgb(n, kLightRange); }, true},
 };
 
 constexpr Field<SpotLight> kSpotFields[] = {
     {"type"},
+    {"transform"},
     {"position", [](SpotLight& l, const Node& n) { l.position = point(n); }, true},
     {"lookAt", [](SpotLight& l, const Node& n) { l.lookAt = point(n); }},
     {"intensity", [](SpotLight& l, const Node& n) { l.intensity = rgb(n, kLightRange); }, true},
@@ -48,6 +53,7 @@ void finishSpot(LightSettings& light, const Node& node) {
 
 constexpr Field<DirectionalLight> kDirectionalFields[] = {
     {"type"},
+    {"transform"},
     {"direction", [](DirectionalLight& l, const Node& n) { l.direction = direction(n); }, true},
     {"irradiance", [](DirectionalLight& l, const Node& n) { l.irradiance = rgb(n, kLightRange); },
      true},
@@ -60,6 +66,7 @@ void normaliseDirection(LightSettings& light, const Node&) {
 
 constexpr Field<RectangleLight> kRectangleFields[] = {
     {"type"},
+    {"transform"},
     {"centre", [](RectangleLight& l, const Node& n) { l.centre = point(n); }, true},
     {"lookAt", [](RectangleLight& l, const Node& n) { l.lookAt = point(n); }},
     {"up", [](RectangleLight& l, const Node& n) { l.up = direction(n); }},
@@ -76,6 +83,7 @@ void finishRectangle(LightSettings& light, const Node& node) {
 
 constexpr Field<SphereLight> kSphereFields[] = {
     {"type"},
+    {"transform"},
     {"centre", [](SphereLight& l, const Node& n) { l.centre = point(n); }, true},
     {"radius", [](SphereLight& l, const Node& n) { l.radiusMm = length(n, kSizeRange); }, true},
     {"radiance", [](SphereLight& l, const Node& n) { l.radiance = rgb(n, kLightRange); }, true},
@@ -113,6 +121,8 @@ std::vector<LightSettings> readLights(const Node& node) {
     for (const Node& entry : entries(node, 0, kMostLights)) {
         const auto& kind = kindOf<LightSettings>(entry, "type", kLightKinds);
         LightSettings light = readKind(kind, entry);
+        if (entry.value.find("transform") != nullptr)
+            light = movedLight(light, readMotion(memberNode(entry, "transform", "")));
         if (std::holds_alternative<EnvironmentLight>(light)) {
             if (haveEnvironment) fail(entry, "is a second environment", "keep one of the two");
             haveEnvironment = true;

@@ -69,6 +69,7 @@ using Material =
 struct NamedMaterial {
     std::string name;
     Material material;
+    double spacingMm = 0;  ///< of points on bodies of it; 0 = from tolerance and mean free path
 };
 
 struct MeshFileShape {
@@ -181,6 +182,7 @@ struct QualitySettings {
     int irradianceSamples = 0;  ///< per point and light; 0 = from tolerance
     int bounces = 4;            ///< indirect bounces between objects; 0 = direct light only
     std::uint64_t seed = 0;
+    std::uint64_t cameraSeed = 0;                  ///< of the camera's noise, beside `seed`
     std::string integrator = "cached";             ///< a row of integrate/integrator_table.h
     int integratorLine = 0, integratorColumn = 0;  ///< where the file names it; 0 = it does not
 };
@@ -188,6 +190,8 @@ struct QualitySettings {
 struct Scene {
     std::filesystem::path file;
     double metersPerUnit = 0.001;  ///< what the file said; everything here is already mm
+    int frame = 1;                 ///< of an animation
+    int referenceFrame = 1;        ///< in whose shape points are placed on what deforms
     CameraSettings camera;
     FilmSettings film;
     QualitySettings quality;

@@ -1,6 +1,7 @@
 #include "sss/scene/scene_reader.h"
 
 #include "sss/base/error.h"
+#include "sss/scene/animation.h"
 #include "sss/scene/camera_reader.h"
 #include "sss/scene/film_reader.h"
 #include "sss/scene/light_reader.h"
@@ -34,6 +35,8 @@ constexpr Field<Scene> kSceneFields[] = {
     {"comment", [](Scene&, const Node& n) { text(n); }},  // for people
     // Read first, because the lengths need it. Checked here too, for when it is overruled.
     {"metersPerUnit", [](Scene&, const Node& n) { number(n, kUnitRange); }},
+    {"referenceFrame",
+     [](Scene& s, const Node& n) { s.referenceFrame = wholeNumber(n, -999999, 999999); }},
     {"camera", [](Scene& s, const Node& n) { s.camera = readCamera(n); }, true},
     {"film", [](Scene& s, const Node& n) { s.film = readFilm(n); }},
     {"quality", [](Scene& s, const Node& n) { s.quality = readQuality(n); }},
@@ -63,13 +66,20 @@ Scene sceneOf(const JsonValue& root, const std::filesystem::path& file,
 
 }  // namespace
 
-Scene readScene(const std::filesystem::path& file, std::optional<double> metersPerUnit) {
-    return sceneOf(readJsonFile(file), file, metersPerUnit);
+Scene readSceneJson(const JsonValue& root, const std::filesystem::path& file,
+                    std::optional<double> metersPerUnit, int frame) {
+    Scene scene = sceneOf(sceneAt(root, frame, file.string()), file, metersPerUnit);
+    scene.frame = frame;
+    return scene;
+}
+
+Scene readScene(const std::filesystem::path& file, std::optional<double> metersPerUnit, int frame) {
+    return readSceneJson(readJsonFile(file), file, metersPerUnit, frame);
 }
 
 Scene readSceneText(std::string_view text, const std::filesystem::path& file,
-                    std::optional<double> metersPerUnit) {
-    return sceneOf(parseJson(text, file.string()), file, metersPerUnit);
+                    std::optional<double> metersPerUnit, int frame) {
+    return readSceneJson(parseJson(text, file.string()), file, metersPerUnit, frame);
 }
 
 std::vector<KeyList> sceneKeys() {
@@ -79,6 +89,7 @@ std::vector<KeyList> sceneKeys() {
     listObjectKeys(out);
     listLightKeys(out);
     listVolumeKeys(out);
+    listAnimationKeys(out);
     return out;
 }
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -104,6 +105,24 @@ std::vector<TransformStep> readTransform(const Node& node) {
         steps.push_back(std::move(step));
     }
     return steps;
+}
+
+RigidTransform readMotion(const Node& node) {
+    DMat4 matrix(1);
+    for (const TransformStep& step : readTransform(node)) {
+        const auto* affine = std::get_if<DMat4>(&step);
+        if (affine == nullptr)
+            fail(node, "has a \"fit\"", "that is for objects, which have a size");
+        matrix = *affine * matrix;
+    }
+    const RigidTransform motion{DMat3(matrix), DVec3(matrix[3])};
+    const DMat3 gram = glm::transpose(motion.rotation) * motion.rotation;
+    double worst = std::abs(glm::determinant(motion.rotation) - 1);
+    for (int column = 0; column < 3; ++column)
+        worst = std::max(worst, maxComponent(glm::abs(gram[column] - DMat3(1)[column])));
+    if (worst > 1e-6)
+        fail(node, "scales, shears or mirrors", "a camera or a light can be moved and turned only");
+    return motion;
 }
 
 void listTransformKeys(std::vector<KeyList>& out) {

@@ -1,7 +1,8 @@
 #include "sss/world/body.h"
 
+#include "sss/geom/rounding.h"
+
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 namespace sss {
@@ -46,25 +47,6 @@ TriangleMesh withFlatNormals(const TriangleMesh& mesh) {
     return split;
 }
 
-// Rotations carry rounding of some 1e-16 into what is meant to be free of them. Cut to multiples of
-// `unit`, far below anything visible, the same body is the same to the bit wherever it stands.
-double cut(double value, double unit) { return std::round(value / unit) * unit; }
-
-DMat3 cut(const DMat3& m) {
-    double largest = 0;
-    for (int c = 0; c < 3; ++c) largest = std::max(largest, maxComponent(glm::abs(m[c])));
-    const double unit = std::ldexp(1.0, std::ilogb(largest) - 36);
-    DMat3 result;
-    for (int c = 0; c < 3; ++c)
-        for (int r = 0; r < 3; ++r) result[c][r] = cut(m[c][r], unit);
-    return result;
-}
-
-DVec3 cut(const DVec3& mm) {
-    constexpr double kUnit = 0x1p-30;
-    return {cut(mm.x, kUnit), cut(mm.y, kUnit), cut(mm.z, kUnit)};
-}
-
 }  // namespace
 
 Vec3 Body::normalAt(FaceIndex face, const Vec2& barycentrics) const {
@@ -96,20 +78,21 @@ Body joinBody(std::string name, std::span<const int> members, std::span<const Lo
     const DMat3 bodyFromWorld = glm::transpose(polar.rotation);
     const DVec3 leaderOffset(leader.worldFromObject[3]);
     bool smooth = false;
-    for (const int member : members) smooth = smooth || !at(member).mesh.normals.empty();
+    for (const int member : members) smooth = smooth || !at(member).mesh().normals.empty();
     for (const int member : members) {
         const LoadedObject& object = at(member);
         const bool leads = member == members.front();
         const DMat3 linear =
-            cut(leads ? polar.stretch : bodyFromWorld * DMat3(object.worldFromObject));
+            withoutRounding(leads ? polar.stretch : bodyFromWorld * DMat3(object.worldFromObject));
         const DVec3 offset =
             leads ? DVec3(0)
-                  : cut(bodyFromWorld * (DVec3(object.worldFromObject[3]) - leaderOffset));
-        TriangleMesh part = transformedMesh(object.mesh, linear, offset);
+                  : withoutRounding(bodyFromWorld *
+                                    (DVec3(object.worldFromObject[3]) - leaderOffset));
+        TriangleMesh part = transformedMesh(object.mesh(), linear, offset);
         if (smooth && part.normals.empty()) part = withFlatNormals(part);
         body.firstFace.push_back(static_cast<FaceIndex>(body.mesh.faceCount()));
         append(body.mesh, std::move(part));
-        body.closed = body.closed && object.closed;
+        body.closed = body.closed && object.closed();
     }
     const DVec3 centre = body.mesh.bounds().centre();
     for (DVec3& p : body.mesh.positions) p -= centre;

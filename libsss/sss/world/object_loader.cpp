@@ -10,6 +10,8 @@
 #include <fmt/core.h>
 
 #include <cmath>
+#include <initializer_list>
+#include <utility>
 
 namespace sss {
 namespace {
@@ -93,20 +95,44 @@ std::string sourceOf(const ObjectSettings& object) {
     return file ? file->path.string() : object.name;
 }
 
-}  // namespace
+// What a surface is made from: equal keys, equal meshes.
+struct KeyMaker {
+    std::string operator()(const MeshFileShape& s) const { return "mesh " + s.path.string(); }
+    std::string operator()(const SphereShape& s) const { return sizes("sphere", {s.radiusMm}); }
+    std::string operator()(const RectangleShape& s) const {
+        return sizes("rectangle", {s.widthMm, s.heightMm});
+    }
+    std::string operator()(const DiskShape& s) const { return sizes("disk", {s.radiusMm}); }
+    std::string operator()(const BoxShape& s) const {
+        return sizes("box", {s.sizeMm.x, s.sizeMm.y, s.sizeMm.z});
+    }
+    std::string operator()(const CylinderShape& s) const {
+        return sizes("cylinder", {s.radiusMm, s.heightMm});
+    }
+    static std::string sizes(const char* name, std::initializer_list<double> mm) {
+        std::string key = name;
+        for (const double size : mm) key += fmt::format(" {:a}", size);
+        return key;
+    }
+};
 
-LoadedObject loadObject(const ObjectSettings& object, const Scene& scene, Reporter& reporter) {
-    const double mmPerUnit = scene.metersPerUnit * 1000.0;
-    LoadedObject loaded;
+std::string keyOf(const ObjectSettings& object, double mmPerUnit) {
+    return fmt::format("{} {} {:a} {}", object.name, static_cast<int>(object.normals), mmPerUnit,
+                       std::visit(KeyMaker{}, object.shape));
+}
+
+std::shared_ptr<const LoadedMesh> loadMesh(const ObjectSettings& object, double mmPerUnit,
+                                           Reporter& reporter) {
+    auto loaded = std::make_shared<LoadedMesh>();
     MeshReport report;
-    loaded.mesh = std::visit(ShapeMaker{mmPerUnit, report}, object.shape);
-    const std::size_t facesRead = loaded.mesh.faceCount();
+    loaded->mesh = std::visit(ShapeMaker{mmPerUnit, report}, object.shape);
+    const std::size_t facesRead = loaded->mesh.faceCount();
     // Reported in the mesh's own unit, before repair: what the user has to mend.
     for (const std::string& sentence : describe(report, mmPerUnit))
         reporter.warn("mesh", object.name + ": " + sentence);
     if (needsRepair(report)) {
-        const RemovedParts removed = removeUnusable(loaded.mesh);
-        if (loaded.mesh.faces.empty())
+        const RemovedParts removed = removeUnusable(loaded->mesh);
+        if (loaded->mesh.faces.empty())
             throw Error(ErrorKind::BadInput, sourceOf(object),
                         fmt::format("none of its {} faces has an area", facesRead),
                         "check the mesh and its scale");
@@ -114,12 +140,52 @@ LoadedObject loadObject(const ObjectSettings& object, const Scene& scene, Report
             reporter.info(
                 "mesh", fmt::format("{}: removed {} faces without area and {} duplicates",
                                     object.name, removed.degenerateFaces, removed.duplicateFaces));
-        repairWinding(loaded.mesh);
-        report = inspectMesh(loaded.mesh);
+        repairWinding(loaded->mesh);
+        report = inspectMesh(loaded->mesh);
     }
-    loaded.closed = report.closed;
-    chooseNormals(loaded.mesh, object.normals);
-    loaded.worldFromObject = resolveTransform(object, loaded.mesh);
+    loaded->closed = report.closed;
+    chooseNormals(loaded->mesh, object.normals);
+    Hasher hasher;
+    addMesh(hasher, loaded->mesh);
+    loaded->content = hasher.finish();
+    return loaded;
+}
+
+}  // namespace
+
+void MeshStore::nextFrame() {
+    std::erase_if(entries_, [](const auto& entry) { return !entry.second.isUsed; });
+    for (auto& [key, entry] : entries_) entry.isUsed = false;
+}
+
+std::shared_ptr<const LoadedMesh> MeshStore::find(const std::string& key) {
+    const auto found = entries_.find(key);
+    if (found == entries_.end()) return nullptr;
+    found->second.isUsed = true;
+    return found->second.mesh;
+}
+
+void MeshStore::add(const std::string& key, std::shared_ptr<const LoadedMesh> mesh) {
+    entries_[key] = {std::move(mesh), true};
+}
+
+void addMesh(Hasher& hasher, const TriangleMesh& mesh) {
+    hasher.add(std::span<const DVec3>(mesh.positions));
+    hasher.add(std::span<const Vec3>(mesh.normals));
+    hasher.add(std::span<const UVec3>(mesh.faces));
+}
+
+LoadedObject loadObject(const ObjectSettings& object, const Scene& scene, Reporter& reporter,
+                        MeshStore* store) {
+    const double mmPerUnit = scene.metersPerUnit * 1000.0;
+    LoadedObject loaded;
+    const std::string key = keyOf(object, mmPerUnit);
+    if (store != nullptr) loaded.shape = store->find(key);
+    if (loaded.shape == nullptr) {
+        loaded.shape = loadMesh(object, mmPerUnit, reporter);
+        if (store != nullptr) store->add(key, loaded.shape);
+    }
+    loaded.worldFromObject = resolveTransform(object, loaded.mesh());
     return loaded;
 }
 

@@ -1,19 +1,54 @@
 #pragma once
+#include "sss/base/hash.h"
 #include "sss/base/reporter.h"
 #include "sss/geom/triangle_mesh.h"
 #include "sss/scene/scene.h"
 
+#include <map>
+#include <memory>
+#include <string>
+
 namespace sss {
 
-/// An object's surface, cleaned, and where it stands.
-struct LoadedObject {
-    TriangleMesh mesh;           ///< object space, mm; faces wound outward; normals as asked for
-    DMat4 worldFromObject{1.0};  ///< mm, fits resolved
+/// A surface, cleaned.
+struct LoadedMesh {
+    TriangleMesh mesh;  ///< object space, mm; faces wound outward; normals as asked for
     bool closed = false;
+    Fingerprint content;  ///< of the mesh
 };
 
+/// An object's surface and where it stands.
+struct LoadedObject {
+    std::shared_ptr<const LoadedMesh> shape;
+    DMat4 worldFromObject{1.0};  ///< mm, fits resolved
+
+    const TriangleMesh& mesh() const { return shape->mesh; }
+    bool closed() const { return shape->closed; }
+};
+
+/// Surfaces that the frames of an animation have in common: read, cleaned and spoken of once.
+class MeshStore {
+public:
+    /// Forgets what was not asked for since the last call.
+    void nextFrame();
+    std::shared_ptr<const LoadedMesh> find(const std::string& key);
+    void add(const std::string& key, std::shared_ptr<const LoadedMesh> mesh);
+
+private:
+    struct Entry {
+        std::shared_ptr<const LoadedMesh> mesh;
+        bool isUsed = true;
+    };
+    std::map<std::string, Entry> entries_;
+};
+
+/// Adds the bytes of a mesh to a content hash.
+void addMesh(Hasher& hasher, const TriangleMesh& mesh);
+
 /// Reads or makes the object's mesh, removes what cannot be used, turns faces the right way, and
-/// tells the reporter of everything that a user should know about it. Throws Error{Io, BadInput}.
-LoadedObject loadObject(const ObjectSettings& object, const Scene& scene, Reporter& reporter);
+/// tells the reporter of everything that a user should know about it; or takes it from `store`, if
+/// there is one and it has it. Throws Error{Io, BadInput}.
+LoadedObject loadObject(const ObjectSettings& object, const Scene& scene, Reporter& reporter,
+                        MeshStore* store = nullptr);
 
 }  // namespace sss

@@ -31,10 +31,10 @@ std::unique_ptr<Volume> loadVolume(const VolumeSettings& settings, const Scene& 
     object.shape = settings.shape;
     object.transform = settings.transform;
     object.normals = NormalsMode::Flat;
-    LoadedObject loaded = loadObject(object, scene, reporter);
+    const LoadedObject loaded = loadObject(object, scene, reporter);
     const std::string where =
         fmt::format("{}:{}:{}", scene.file.string(), settings.line, settings.column);
-    if (!loaded.closed)
+    if (!loaded.closed())
         throw Error(ErrorKind::BadInput, where,
                     fmt::format("the surface of the volume \"{}\" is not closed, so that it has no "
                                 "inside",
@@ -42,12 +42,12 @@ std::unique_ptr<Volume> loadVolume(const VolumeSettings& settings, const Scene& 
                     "close the mesh, or take a box or a sphere around it");
     VolumePlace place;
     place.part = partOf(settings.shape);
-    const DBounds box = boundsOf(settings.shape, loaded.mesh);
+    const DBounds box = boundsOf(settings.shape, loaded.mesh());
     const DMat4 worldFromObject = glm::translate(DMat4(1.0), -originMm) * loaded.worldFromObject;
     place.worldFromUnit = glm::scale(glm::translate(worldFromObject, box.lo), box.size());
     if (place.part == VolumePlace::Part::Mesh)
         place.mesh =
-            transformedMesh(loaded.mesh, DMat3(worldFromObject), DVec3(worldFromObject[3]));
+            transformedMesh(loaded.mesh(), DMat3(worldFromObject), DVec3(worldFromObject[3]));
     const DVec3 size = box.size();
     auto volume = std::make_unique<Volume>(settings, std::move(place));
     reporter.info("scene", fmt::format("{}: a volume of {:.4g} x {:.4g} x {:.4g} mm{}{}",

@@ -14,15 +14,34 @@ namespace sss {
 
 std::uint32_t bodyMask(int body) { return 2u << (body % 31); }
 
-World::World(const Scene& scene, Reporter& reporter) : scene_(scene) {
+namespace {
+
+std::vector<LoadedObject> loadAll(const Scene& scene, Reporter& reporter, MeshStore* meshes) {
     std::vector<LoadedObject> loaded;
-    for (const ObjectSettings& object : scene_.objects)
-        loaded.push_back(loadObject(object, scene_, reporter));
-    chooseOrigin(loaded);
-    makeBodies(loaded, reporter);
-    makeParts(loaded);
+    for (const ObjectSettings& object : scene.objects)
+        loaded.push_back(loadObject(object, scene, reporter, meshes));
+    return loaded;
+}
+
+}  // namespace
+
+World::World(const Scene& scene, Reporter& reporter, MeshStore* meshes)
+    : World(scene, loadAll(scene, reporter, meshes), reporter) {}
+
+World::World(Scene scene, std::vector<LoadedObject> loaded, Reporter& reporter)
+    : scene_(std::move(scene)), loaded_(std::move(loaded)) {
+    chooseOrigin();
+    makeBodies(reporter);
+    makeParts();
     makeVolumes(reporter);
     makeLights();
+    camera_.emplace(scene_.camera, scene_.film.width, scene_.film.height, originMm_);
+}
+
+void World::lookFrom(const Scene& scene) {
+    scene_.camera = scene.camera;
+    scene_.frame = scene.frame;
+    scene_.quality.cameraSeed = scene.quality.cameraSeed;
     camera_.emplace(scene_.camera, scene_.film.width, scene_.film.height, originMm_);
 }
 
@@ -31,12 +50,12 @@ const TranslucentMaterial& World::materialOf(const Body& body) const {
 }
 
 // The middle of what is translucent, or else of everything.
-void World::chooseOrigin(const std::vector<LoadedObject>& loaded) {
+void World::chooseOrigin() {
     DBounds translucent, all;
-    for (std::size_t k = 0; k < loaded.size(); ++k) {
+    for (std::size_t k = 0; k < loaded_.size(); ++k) {
         DBounds box;
-        for (const DVec3& p : loaded[k].mesh.positions)
-            box.add(DVec3(loaded[k].worldFromObject * glm::dvec4(p, 1.0)));
+        for (const DVec3& p : loaded_[k].mesh().positions)
+            box.add(DVec3(loaded_[k].worldFromObject * glm::dvec4(p, 1.0)));
         all.add(box);
         if (std::holds_alternative<TranslucentMaterial>(material(scene_.objects[k].material)))
             translucent.add(box);
@@ -44,10 +63,10 @@ void World::chooseOrigin(const std::vector<LoadedObject>& loaded) {
     originMm_ = (translucent.isEmpty() ? all : translucent).centre();
 }
 
-void World::makeBodies(const std::vector<LoadedObject>& loaded, Reporter& reporter) {
+void World::makeBodies(Reporter& reporter) {
     std::vector<std::vector<int>> members;
     std::map<std::string, std::size_t> groups;
-    for (int k = 0; k < static_cast<int>(loaded.size()); ++k) {
+    for (int k = 0; k < static_cast<int>(loaded_.size()); ++k) {
         const ObjectSettings& object = scene_.objects[static_cast<std::size_t>(k)];
         if (!std::holds_alternative<TranslucentMaterial>(material(object.material))) continue;
         if (object.group.empty()) {
@@ -71,7 +90,7 @@ void World::makeBodies(const std::vector<LoadedObject>& loaded, Reporter& report
                                 object.name, object.group, first.name),
                     "a group is one body: give its objects one material, or split the group");
         }
-        bodies_.push_back(joinBody(first.group.empty() ? first.name : first.group, group, loaded,
+        bodies_.push_back(joinBody(first.group.empty() ? first.name : first.group, group, loaded_,
                                    scene_, originMm_));
         describeBody(bodies_.back(), reporter);
     }
@@ -101,12 +120,12 @@ void World::describeBody(const Body& body, Reporter& reporter) const {
                                           body.name, translucent.profile));
 }
 
-void World::makeParts(const std::vector<LoadedObject>& loaded) {
-    parts_.resize(loaded.size());
-    std::vector<RayScene::Geometry> geometries(loaded.size());
-    for (std::size_t k = 0; k < loaded.size(); ++k) {
-        const DMat4& m = loaded[k].worldFromObject;
-        TriangleMesh mesh = transformedMesh(loaded[k].mesh, DMat3(m), DVec3(m[3]) - originMm_);
+void World::makeParts() {
+    parts_.resize(loaded_.size());
+    std::vector<RayScene::Geometry> geometries(loaded_.size());
+    for (std::size_t k = 0; k < loaded_.size(); ++k) {
+        const DMat4& m = loaded_[k].worldFromObject;
+        TriangleMesh mesh = transformedMesh(loaded_[k].mesh(), DMat3(m), DVec3(m[3]) - originMm_);
         Part& part = parts_[k];
         for (const DVec3& p : mesh.positions) {
             part.positions.push_back(Vec3(p));
@@ -175,13 +194,6 @@ void World::makeLights() {
     for (std::size_t k = 0; k < scene_.lights.size(); ++k)  // emitters come after them
         if (!lights_[k]->isDelta())
             visibleLights_.push_back({lights_[k].get(), picker_->pmf(k), lights_[k]->isInfinite()});
-}
-
-void World::addGeometryTo(Hasher& hasher, std::size_t object) const {
-    const Part& part = parts_[object];
-    hasher.add(std::span<const Vec3>(part.positions));
-    hasher.add(std::span<const Vec3>(part.normals));
-    hasher.add(std::span<const UVec3>(part.faces));
 }
 
 SurfaceHit World::surfaceAt(const Hit& hit) const {

@@ -1,5 +1,4 @@
 #pragma once
-#include "sss/base/hash.h"
 #include "sss/base/reporter.h"
 #include "sss/geom/ray_scene.h"
 #include "sss/light/light.h"
@@ -10,6 +9,7 @@
 #include "sss/volume/volume_segment.h"
 #include "sss/world/body.h"
 #include "sss/world/camera.h"
+#include "sss/world/object_loader.h"
 
 #include <memory>
 #include <optional>
@@ -43,7 +43,21 @@ class World {
 public:
     /// Opens meshes and environment maps; reports sizes and mean free paths in mm, and whatever is
     /// wrong with the meshes or lies beyond diffusion. Throws Error.
-    World(const Scene& scene, Reporter& reporter);
+    World(const Scene& scene, Reporter& reporter, MeshStore* meshes = nullptr);
+
+    /// Looks through another camera, or with other camera noise; all else of `scene` is the same.
+    void lookFrom(const Scene& scene);
+
+    // Pass 1 has a space of its own: that of the first body, so that what lights the bodies is the
+    // same to the bit however all of it moves together. Where an environment has a direction, that
+    // space moves with the body but does not turn.
+
+    /// From the scene's space, in mm.
+    RigidTransform lightFromScene() const;
+    DMat4 lightFromObject(std::size_t object) const;
+    LightSettings lightInLightSpace(std::size_t light) const;
+    /// This world in that space. Cameras do not matter there.
+    std::unique_ptr<const World> inLightSpace() const;
 
     const Scene& scene() const { return scene_; }
     const DVec3& originMm() const { return originMm_; }
@@ -92,8 +106,8 @@ public:
     /// An object's triangles as they stand in the world.
     RayScene::Geometry geometry(std::size_t object) const;
     std::size_t objectCount() const { return parts_.size(); }
-    /// Adds an object's surface, as it stands in the world, to a content hash.
-    void addGeometryTo(Hasher& hasher, std::size_t object) const;
+    /// An object's surface, in its own space.
+    const LoadedMesh& mesh(std::size_t object) const { return *loaded_[object].shape; }
 
     /// What stands where a ray hit.
     SurfaceHit surfaceAt(const Hit& hit) const;
@@ -111,15 +125,17 @@ private:
         int body = -1;
         FaceIndex firstBodyFace = 0;
     };
-    void chooseOrigin(const std::vector<LoadedObject>& loaded);
-    void makeBodies(const std::vector<LoadedObject>& loaded, Reporter& reporter);
-    void makeParts(const std::vector<LoadedObject>& loaded);
+    World(Scene scene, std::vector<LoadedObject> loaded, Reporter& reporter);
+    void chooseOrigin();
+    void makeBodies(Reporter& reporter);
+    void makeParts();
     void makeVolumes(Reporter& reporter);
     void makeLights();
     void makeGlows();
     void describeBody(const Body& body, Reporter& reporter) const;
 
     Scene scene_;
+    std::vector<LoadedObject> loaded_;  // by object
     DVec3 originMm_{0};
     std::vector<Body> bodies_;
     std::vector<Part> parts_;  // by object

@@ -4,6 +4,7 @@
 #include "sss/base/error.h"
 #include "sss/integrate/cloud_cache.h"
 #include "support/temporary_folder.h"
+#include "unit/integrate/cache_maker.h"
 
 #include <fmt/format.h>
 
@@ -52,7 +53,8 @@ Outcome passOne(const Scene& scene, const std::filesystem::path& cache, std::int
     try {
         allocationsLeft = nth;
         const Passes passes(scene);
-        writeCloudCache(cache, passes.world(), passes.clouds(), passes.reports(), passes.optics());
+        testing::writeCache(cache, passes.world(), passes.optics(), passes.clouds(),
+                            passes.reports());
         stop();
         return {.isWritten = true, .words = "written"};
     } catch (const std::bad_alloc&) {
@@ -68,7 +70,7 @@ std::int64_t allocationsOfPassOne(const Scene& scene, const std::filesystem::pat
     constexpr std::int64_t kMany = std::int64_t{1} << 40;
     allocationsLeft = kMany;
     const Passes passes(scene);
-    writeCloudCache(cache, passes.world(), passes.clouds(), passes.reports(), passes.optics());
+    testing::writeCache(cache, passes.world(), passes.optics(), passes.clouds(), passes.reports());
     const std::int64_t used = kMany - allocationsLeft;
     allocationsLeft = std::numeric_limits<std::int64_t>::max();
     return used;

@@ -6,6 +6,7 @@
 #include "sss/integrate/cloud_cache.h"
 #include "sss/integrate/exitance_cache.h"
 #include "support/temporary_folder.h"
+#include "unit/integrate/cache_maker.h"
 
 #include <fmt/format.h>
 
@@ -106,7 +107,9 @@ void bombs(const TemporaryFolder& folder, const Passes& passes, Report& report) 
 // Kept exitance that is damaged is never used: a warning, and the same values computed anew.
 void damagedExitance(const TemporaryFolder& folder, const Passes& passes, Report& report) {
     Row row("caches", "exitance cut or flipped: a warning, nothing used", 0);
-    ExitanceCache cache(folder / "good.ssc", passes.world(), passes.optics());
+    const BodyInputs inputs = worldInputs(passes.world(), passes.optics())[0];
+    ExitanceCache cache(exitanceFileOf(folder / "good.ssc"),
+                        {exitanceFingerprint(passes.world(), 0, inputs)});
     CountingReporter reporter;
     const auto known = passes.fields();
     for (FaceIndex face = 0; face < passes.world().bodies()[0].mesh.faceCount(); ++face)
@@ -134,8 +137,8 @@ void stressCaches(Report& report, Scope /*scope*/) {
         bodyScene(BoxShape{DVec3(4)}, toMedium(*findMeasuredMedium("Marble")));
     maker.scene.quality.spacingMm = 2;
     const Passes passes(maker.scene);
-    writeCloudCache(folder / "good.ssc", passes.world(), passes.clouds(), passes.reports(),
-                    passes.optics());
+    testing::writeCache(folder / "good.ssc", passes.world(), passes.optics(), passes.clouds(),
+                        passes.reports());
     damagedClouds(folder, passes, report);
     bombs(folder, passes, report);
     damagedExitance(folder, passes, report);

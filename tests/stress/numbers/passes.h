@@ -22,7 +22,8 @@ public:
             BodyCloud& cloud =
                 clouds_.emplace_back(buildCloud(samples, std::move(light.irradiance), report));
             if (optics_[index]->onShape)
-                shapeCloud(world_, b, samples, light.beams, optics_, cloud, silent_, report);
+                cloud.correction = shapeCorrection(world_, b, samples, light.beams, optics_,
+                                                   cloud.view(), silent_, report);
         }
     }
     const World& world() const { return world_; }

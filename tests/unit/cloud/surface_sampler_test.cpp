@@ -214,5 +214,36 @@ TEST(SurfaceSampler, NeedleTriangles) {
     EXPECT_NEAR(double(points.size()), 1600, 100);
 }
 
+// The cells of a deforming surface are made of the same parts of the same faces.
+TEST(CarriedSamples, KeepTheirPlacesOnTheFaces) {
+    const TriangleMesh sphere = makeSphere(10);
+    SamplerOptions options;
+    options.spacingMm = 2;
+    const SurfaceSamples placed = sampleSurface(sphere, options);
+    const SurfaceSamples same = carrySamples(placed, sphere, sphere);
+    TriangleMesh twice = sphere, stretched = sphere;
+    for (DVec3& p : twice.positions) p *= 2.0;
+    for (DVec3& p : stretched.positions) p *= DVec3(1, 3, 0.5);
+    const SurfaceSamples scaled = carrySamples(placed, sphere, twice);
+    const SurfaceSamples carried = carrySamples(placed, sphere, stretched);
+    EXPECT_FALSE(carried.inMortonOrder);
+    ASSERT_EQ(carried.size(), placed.size());
+    double area = 0;
+    for (std::size_t p = 0; p < placed.size(); ++p) {
+        EXPECT_EQ(same.points[p].position, placed.points[p].position);
+        EXPECT_EQ(same.points[p].areaMm2, placed.points[p].areaMm2);
+        EXPECT_LT(glm::distance(scaled.points[p].position, placed.points[p].position * 2.0f),
+                  1e-5f);
+        EXPECT_FLOAT_EQ(scaled.points[p].areaMm2, placed.points[p].areaMm2 * 4);
+        // Within the cell, as it is now: no further from its anchor's new place than from the
+        // old one, times the largest stretch.
+        const SurfacePoint& point = carried.points[p];
+        const DVec3 anchor = stretched.positionAt(point.face, DVec2(point.barycentrics()));
+        EXPECT_LT(glm::distance(DVec3(point.position), anchor), 3 * options.spacingMm);
+        area += static_cast<double>(point.areaMm2);
+    }
+    EXPECT_NEAR(area / stretched.area(), 1, 1e-5);
+}
+
 }  // namespace
 }  // namespace sss

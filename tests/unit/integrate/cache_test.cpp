@@ -2,6 +2,7 @@
 #include "sss/integrate/cloud_cache.h"
 #include "sss/integrate/scene_fingerprint.h"
 #include "support/temporary_folder.h"
+#include "unit/integrate/cache_maker.h"
 #include "unit/integrate/pass_maker.h"
 
 #include <gtest/gtest.h>
@@ -30,7 +31,7 @@ SceneMaker smallScene() {
     return maker;
 }
 
-std::vector<InputFingerprint> inputsOf(const Scene& scene) {
+BodyInputs inputsOf(const Scene& scene) {
     SilentReporter silent;
     const World world(scene, silent);
     const auto optics = makeBodyOptics(world);
@@ -98,13 +99,16 @@ TEST(SceneFingerprint, NamesExactlyWhatChanged) {
         {"film", [](Scene& s) { s.film.samples = 7, s.film.width = 99; }, {}},
         {"roughness of the boundary",
          [](Scene& s) { std::get<TranslucentMaterial>(s.materials[0].material).roughness = 0.4; },
-         {}},
+         {"medium"}},
+        {"eta",
+         [](Scene& s) { std::get<TranslucentMaterial>(s.materials[0].material).medium.eta = 1.4; },
+         {"medium"}},
         {"names", [](Scene& s) { s.objects[0].name = "ball", s.materials[0].name = "stone"; }, {}},
         {"light",
          [](Scene& s) { std::get<DirectionalLight>(s.lights[0]).irradiance.y = 3; },
          {"lights"}},
         {"another light", [](Scene& s) { s.lights.emplace_back(PointLight{}); }, {"lights"}},
-        {"mesh", [](Scene& s) { s.objects[0].shape = BoxShape{DVec3(5.01)}; }, {"mesh"}},
+        {"mesh", [](Scene& s) { s.objects[0].shape = BoxShape{DVec3(5.01)}; }, {"mesh", "form"}},
         {"medium",
          [](Scene& s) {
              std::get<TranslucentMaterial>(s.materials[0].material).medium.sigmaA.z = 1;
@@ -126,7 +130,7 @@ TEST(SceneFingerprint, NamesExactlyWhatChanged) {
          [](Scene& s) {
              s.objects[0].transform = {testing::turned(5, {0, 1, 0})};
          },
-         {"surroundings"}},
+         {"lights", "surroundings"}},
         {"a new neighbour",
          [](Scene& s) {
              s.objects.push_back(s.objects[1]);
@@ -162,7 +166,7 @@ struct Written {
           world(maker.world()),
           optics(makeBodyOptics(world)),
           made(world, optics) {
-        writeCloudCache(path, world, made.clouds, made.reports, optics);
+        testing::writeCache(path, world, optics, made.clouds, made.reports);
     }
 };
 

@@ -2,6 +2,7 @@
 #include "sss/integrate/exitance_cache.h"
 
 #include "sss/cloud/exitance_store.h"
+#include "sss/integrate/cloud_cache.h"
 #include "support/temporary_folder.h"
 #include "unit/integrate/pass_maker.h"
 
@@ -35,6 +36,14 @@ struct Warnings final : Reporter {
     void progress(std::string_view, double, double, bool) override {}
 };
 
+std::vector<Fingerprint> exitanceFingerprints(const World& world,
+                                              std::span<const std::unique_ptr<BodyOptics>> optics) {
+    std::vector<Fingerprint> all;
+    for (const BodyInputs& inputs : worldInputs(world, optics))
+        all.push_back(exitanceFingerprint(world, static_cast<int>(all.size()), inputs));
+    return all;
+}
+
 // A scene with its fields, as sss-render has them.
 struct Frame {
     SilentReporter silent;
@@ -49,7 +58,7 @@ struct Frame {
         : world(scene, silent),
           optics(makeBodyOptics(world)),
           made(world, optics),
-          cache(file, world, optics) {
+          cache(exitanceFileOf(file), exitanceFingerprints(world, optics)) {
         for (std::size_t b = 0; b < optics.size(); ++b)
             fields.push_back(std::make_unique<BodyField>(
                 world.bodies()[b], *optics[b], made.clouds[b].view(), scene.quality.tolerance));

@@ -25,7 +25,8 @@ struct MadeClouds {
             IrradianceResult light = lightPoints(world, b, samples, optics, silent, report);
             clouds.push_back(buildCloud(samples, std::move(light.irradiance), report));
             if (optics[static_cast<std::size_t>(b)]->onShape)
-                shapeCloud(world, b, samples, light.beams, optics, clouds.back(), silent, report);
+                clouds.back().correction = shapeCorrection(world, b, samples, light.beams, optics,
+                                                           clouds.back().view(), silent, report);
         }
     }
 };

@@ -3,6 +3,7 @@
 #include "sss/integrate/cloud_cache.h"
 #include "sss/optics/fresnel.h"
 #include "support/temporary_folder.h"
+#include "unit/integrate/cache_maker.h"
 #include "unit/integrate/pass_maker.h"
 
 #include <gtest/gtest.h>
@@ -117,7 +118,7 @@ TEST(BeamSources, KeepTheLight) {
             const DiffusionConstants constants =
                 diffusionConstants(medium, exactFresnelMoments(medium.eta));
             const BeamSources light =
-                placeBeamSources(*ball.world, 0, ball.cloud, ball.beams, constants);
+                placeBeamSources(*ball.world, 0, ball.cloud.view(), ball.beams, constants);
             ASSERT_GT(light.entered[0], 0);
             EXPECT_NEAR((light.scattered[0] / albedo + light.unscattered[0]) / light.entered[0], 1,
                         3e-4)
@@ -151,7 +152,7 @@ TEST(ShapeCache, GivesTheSamePicture) {
     const MadeClouds made(world, optics);
     EXPECT_FALSE(made.clouds[0].correction.empty());
     EXPECT_TRUE(made.clouds[1].correction.empty());
-    writeCloudCache(folder / "c.sss", world, made.clouds, made.reports, optics);
+    testing::writeCache(folder / "c.sss", world, optics, made.clouds, made.reports);
     const bool through = optics[0]->seesThrough;
     const LayeredImage direct =
         testing::renderFrom(world, optics, [&](std::size_t b) { return made.clouds[b].view(); });
@@ -175,7 +176,7 @@ TEST(ShapeCache, OfTheProfileIsRefused) {
     const World before(flat, silent);
     const auto flatOptics = makeBodyOptics(before);
     const MadeClouds made(before, flatOptics);
-    writeCloudCache(folder / "c.sss", before, made.clouds, made.reports, flatOptics);
+    testing::writeCache(folder / "c.sss", before, flatOptics, made.clouds, made.reports);
     const World world(twoBalls(), silent);
     const auto optics = makeBodyOptics(world);
     try {

@@ -1,0 +1,155 @@
+#include "preprocess_frames.h"
+
+#include "sss/app/estimate.h"
+#include "sss/app/scene_frames.h"
+#include "sss/app/stage_chain.h"
+#include "sss/app/terminal_reporter.h"
+#include "sss/base/atomic_file.h"
+#include "sss/base/frame_list.h"
+#include "sss/base/parallel.h"
+#include "sss/cloud/ply_export.h"
+#include "sss/scene/material_override.h"
+
+#include <fmt/core.h>
+
+namespace {
+
+using namespace sss;
+
+void applyOverrides(Scene& scene, const PreprocessOptions& options) {
+    if (options.tolerance) scene.quality.tolerance = *options.tolerance;
+    if (options.spacingMm) scene.quality.spacingMm = *options.spacingMm;
+    if (options.seed) scene.quality.seed = *options.seed;
+    if (!options.model.empty()) setModel(scene, options.model, "--model");
+    if (options.boundary) setBoundary(scene, *options.boundary);
+}
+
+// Points of all bodies, in the world's space moved back to the scene's.
+void exportPoints(const std::filesystem::path& path, const World& world,
+                  std::span<const CachedBody> clouds) {
+    std::vector<Vec3> positions, normals;
+    std::vector<float> areas;
+    std::vector<Rgb> irradiances;
+    for (std::size_t b = 0; b < clouds.size(); ++b) {
+        const RigidTransform& move = world.bodies()[b].worldFromBody;
+        for (std::size_t i = 0; i < clouds[b].cloud.cloud.points.size(); ++i) {
+            const SurfacePoint& p = clouds[b].cloud.cloud.points[i];
+            positions.push_back(Vec3(move.transformPoint(DVec3(p.position)) + world.originMm()));
+            normals.push_back(Vec3(move.transformDirection(DVec3(decodeUnitVector(p.normal)))));
+            areas.push_back(p.areaMm2);
+            irradiances.push_back(clouds[b].cloud.cloud.irradiance[i]);
+        }
+    }
+    exportPly(path, {positions, normals, areas, irradiances});
+}
+
+void printEstimate(const JsonValue& estimate, bool json) {
+    if (json) {
+        fmt::print("{}\n", dump(estimate));
+        return;
+    }
+    const auto number = [&](const char* key) { return estimate.find(key)->value.asNumber(); };
+    fmt::print("points  {:.0f}\nmemory  {:.3g} MB\ntime    {:.3g} s\n", number("points"),
+               number("memoryBytes") / 1e6, number("seconds"));
+}
+
+class FramePreprocessor {
+public:
+    FramePreprocessor(const PreprocessOptions& options, Reporter& reporter, RunStats& stats)
+        : options_(options),
+          reporter_(reporter),
+          stats_(stats),
+          scenes_(
+              options.scene, options.metersPerUnit,
+              [&](Scene& scene) { applyOverrides(scene, options); }, reporter),
+          isFolder_(isFolderName(options.cache)),
+          chain_({isFolder_ ? options.cache : std::filesystem::path(),
+                  {options.maxPoints},
+                  false,
+                  true,
+                  options.explain},
+                 reporter, stats) {}
+
+    void run() {
+        const std::vector<int> frames = options_.frames.empty() ? std::vector{1} : options_.frames;
+        if (options_.printEstimate) {
+            const World world(scenes_.at(frames.front()), reporter_);
+            printEstimate(estimatePassOne(world, makeBodyOptics(world)), options_.json);
+            return;
+        }
+        if (!isFolder_)
+            for (const int frame : frames) requireWritable(fileOf(frame));
+        for (const int frame : frames) preprocess(frame);
+        stats_.value("frames", std::move(table_));
+    }
+
+private:
+    std::filesystem::path fileOf(int frame) const {
+        return frameName(options_.cache.string(), frame);
+    }
+
+    void preprocess(int number) {
+        const Scene scene = scenes_.at(number);
+        if (!options_.frames.empty())
+            reporter_.info("frame", fmt::format("{} of {}", number, scene.file.string()));
+        const double wall = stats_.wallSeconds(), cpu = stats_.cpuSeconds();
+        std::shared_ptr<const World> world;
+        bool sameWorld = false;
+        {
+            const auto timer = stats_.seconds("scene");
+            world = scenes_.world(scene, sameWorld);
+        }
+        if (world->bodies().empty())
+            reporter_.warn("scene", "no object is translucent: there is nothing to cache");
+        if (sameWorld)
+            chain_.reuse();
+        else
+            chain_.prepare(world, scenes_.reference(scene));
+        if (!options_.exportPly.empty())
+            exportPoints(frameName(options_.exportPly.string(), number), *world, chain_.clouds());
+        if (!isFolder_) write(fileOf(number), *world);
+        JsonValue row = JsonValue::object();
+        row.set("frame", number)
+            .set("seconds", stats_.wallSeconds() - wall)
+            .set("cpuSeconds", stats_.cpuSeconds() - cpu)
+            .set("stages", toJson(chain_.rows()));
+        table_.push(std::move(row));
+        if (!options_.explain) return;
+        for (const StageRow& stage : chain_.rows())
+            fmt::print("frame {}: {}\n", number, sentenceOf(stage));
+    }
+
+    void write(const std::filesystem::path& file, const World& world) {
+        const auto timer = stats_.seconds("write");
+        writeCloudCache(file, world, chain_.clouds());
+        reporter_.info("cache",
+                       fmt::format("wrote {} ({:.3g} MB)", file.string(),
+                                   static_cast<double>(std::filesystem::file_size(file)) / 1e6));
+    }
+
+    const PreprocessOptions& options_;
+    Reporter& reporter_;
+    RunStats& stats_;
+    SceneFrames scenes_;
+    bool isFolder_;
+    StageChain chain_;
+    JsonValue table_ = JsonValue::array();
+};
+
+}  // namespace
+
+void preprocessFrames(const PreprocessOptions& options) {
+    RunStats stats("sss-preprocess");
+    TerminalOptions terminal;
+    terminal.quiet = options.quiet;
+    terminal.progress = options.progress;
+    TerminalReporter log(terminal);
+    OnceReporter reporter(log);
+    const ThreadLimit threads(options.threads);
+    for (const auto& output : {options.stats, options.exportPly})
+        if (!output.empty()) requireWritable(output);
+    FramePreprocessor(options, reporter, stats).run();
+    stats.value("threads", ThreadLimit::current());
+    if (!options.stats.empty()) stats.writeStats(options.stats);
+    if (options.strict) log.requireNoWarnings();
+}
