@@ -308,11 +308,10 @@ class Overrides(ProfileTest):
             return (self.folder / f"{name}.exr").read_bytes()
         self.assertNotEqual(picture("shape"), picture("dipole-from-dipole"))
         self.assertEqual(picture("dipole-from-shape"), picture("dipole-from-dipole"))
-        for program in (self.render, self.preprocess):
-            self.assert_refused(USAGE, "dipol.*\"dipole\"", program, scene, "-o", "x",
-                                "--model", "dipol")
-            self.assert_refused(USAGE, "multipole", program, scene, "-o", "x",
-                                "--model", "multipole")
+        for program, out in ((self.render, "x.exr"), (self.preprocess, "x.ssc")):
+            for model in ("dipol", "multipole"):
+                self.assert_refused(USAGE, f'--model.*"{model}".*"dipole"', program, scene, "-o", out,
+                                    "--model", model)
 
 
 if __name__ == "__main__":
