@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include <atomic>
+#include <cstddef>
 #include <cstdlib>
 #include <limits>
 #include <new>
@@ -18,26 +19,62 @@ namespace {
 // Allocations until one fails.
 std::atomic<std::int64_t> allocationsLeft{std::numeric_limits<std::int64_t>::max()};
 
-void* allocate(std::size_t bytes, std::size_t alignment) {
-    if (allocationsLeft.fetch_sub(1, std::memory_order_relaxed) == 0) throw std::bad_alloc();
+void* allocateOrNull(std::size_t bytes, std::size_t alignment) noexcept {
+    if (allocationsLeft.fetch_sub(1, std::memory_order_relaxed) == 0) return nullptr;
     const std::size_t whole =
         (std::max<std::size_t>(bytes, 1) + alignment - 1) / alignment * alignment;
-    void* memory = alignment <= alignof(std::max_align_t) ? std::malloc(whole)
-                                                          : std::aligned_alloc(alignment, whole);
+    return alignment <= alignof(std::max_align_t) ? std::malloc(whole)
+                                                  : std::aligned_alloc(alignment, whole);
+}
+
+void* allocate(std::size_t bytes, std::size_t alignment) {
+    void* const memory = allocateOrNull(bytes, alignment);
     if (!memory) throw std::bad_alloc();
     return memory;
 }
 
+std::size_t toSize(std::align_val_t alignment) { return static_cast<std::size_t>(alignment); }
+
 }  // namespace
 
+// All of them: an allocator of the standard library, or a sanitizer, may pair any two.
 void* operator new(std::size_t bytes) { return allocate(bytes, 1); }
+void* operator new[](std::size_t bytes) { return allocate(bytes, 1); }
 void* operator new(std::size_t bytes, std::align_val_t alignment) {
-    return allocate(bytes, static_cast<std::size_t>(alignment));
+    return allocate(bytes, toSize(alignment));
+}
+void* operator new[](std::size_t bytes, std::align_val_t alignment) {
+    return allocate(bytes, toSize(alignment));
+}
+void* operator new(std::size_t bytes, const std::nothrow_t&) noexcept {
+    return allocateOrNull(bytes, 1);
+}
+void* operator new[](std::size_t bytes, const std::nothrow_t&) noexcept {
+    return allocateOrNull(bytes, 1);
+}
+void* operator new(std::size_t bytes, std::align_val_t alignment, const std::nothrow_t&) noexcept {
+    return allocateOrNull(bytes, toSize(alignment));
+}
+void* operator new[](std::size_t bytes, std::align_val_t alignment,
+                     const std::nothrow_t&) noexcept {
+    return allocateOrNull(bytes, toSize(alignment));
 }
 void operator delete(void* memory) noexcept { std::free(memory); }
+void operator delete[](void* memory) noexcept { std::free(memory); }
 void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+void operator delete[](void* memory, std::size_t) noexcept { std::free(memory); }
 void operator delete(void* memory, std::align_val_t) noexcept { std::free(memory); }
+void operator delete[](void* memory, std::align_val_t) noexcept { std::free(memory); }
 void operator delete(void* memory, std::size_t, std::align_val_t) noexcept { std::free(memory); }
+void operator delete[](void* memory, std::size_t, std::align_val_t) noexcept { std::free(memory); }
+void operator delete(void* memory, const std::nothrow_t&) noexcept { std::free(memory); }
+void operator delete[](void* memory, const std::nothrow_t&) noexcept { std::free(memory); }
+void operator delete(void* memory, std::align_val_t, const std::nothrow_t&) noexcept {
+    std::free(memory);
+}
+void operator delete[](void* memory, std::align_val_t, const std::nothrow_t&) noexcept {
+    std::free(memory);
+}
 
 namespace sss::stress {
 namespace {
