@@ -146,11 +146,11 @@ void writePictures(const RenderOptions& options, const Scene& scene, const Frame
 
 constexpr const char* kPictureHash = "sss/pictureHash";
 
-// Whether a picture of this very frame is there, readable to its last pixel.
+// Whether a picture of this very frame is there, whole to its last pixel, and its preview.
 bool isComplete(const RenderOptions& options, const Scene& scene, const Frame& frame) {
     std::error_code ignored;
     if (!std::filesystem::exists(frame.output, ignored)) return false;
-    if (!options.noPng && !std::filesystem::exists(frame.png, ignored)) return false;
+    if (!options.noPng && !isWholePng(frame.png)) return false;
     try {
         const LayeredImage image = readExr(frame.output);
         const auto hash = image.metadata.find(kPictureHash);

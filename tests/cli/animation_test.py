@@ -53,6 +53,11 @@ class Animation(CliTest):
                                  for row in frame.get("stages", [])}
                 for frame in stats["values"]["frames"]}
 
+    def skipped(self):
+        """Of each frame, whether --resume found it complete."""
+        stats = json.loads((self.folder / "stats.json").read_text())
+        return [frame["skipped"] for frame in stats["values"]["frames"]]
+
     def same_frames(self, scene, frames):
         """Renders frames in a range, alone in memory, alone from the cache, and in four processes
         at once over a fresh cache; all must be the same bytes."""
@@ -223,16 +228,29 @@ class Animation(CliTest):
         (self.folder / "r.0004.png").unlink()
         shutil.copy(self.folder / "r.0001.exr", self.folder / "r.0005.exr")  # whole, but of another
         self.assert_ok(self.render(*command))
-        stats = json.loads((self.folder / "stats.json").read_text())
-        skipped = [frame["skipped"] for frame in stats["values"]["frames"]]
-        self.assertEqual(skipped, [True, False, False, False, False])
+        self.assertEqual(self.skipped(), [True, False, False, False, False])
         for name, content in whole.items():
             self.assertEqual(self.bytes_of(name), content, name)
+        for size in (0, 40, len(whole["r.0003.png"]) - 1):  # a preview counts as well
+            (self.folder / "r.0003.png").write_bytes(whole["r.0003.png"][:size])
+            self.assert_ok(self.render(*command))
+            self.assertEqual(self.skipped(), [True, True, False, True, True], size)
+            self.assertEqual(self.bytes_of("r.0003.png"), whole["r.0003.png"])
         # Another scene of the same name has other pictures.
         self.write_scene(lights=[SKY])
         self.assert_ok(self.render(*command))
-        stats = json.loads((self.folder / "stats.json").read_text())
-        self.assertFalse(any(frame["skipped"] for frame in stats["values"]["frames"]))
+        self.assertFalse(any(self.skipped()))
+
+    def test_resume_after_the_reference_frame_changed(self):
+        """Points of all frames are placed on it, so that all pictures are others."""
+        scene = self.bend((1, 2, 3))
+        command = (scene, "--frames", "2-3", "-o", "r.####.exr", "--stats", "stats.json")
+        self.assert_ok(self.render(*command))
+        self.assert_ok(self.render(*command, "--resume"))
+        self.assertEqual(self.skipped(), [True, True])
+        self.write("bar.0001.obj", bar(-1))
+        self.assert_ok(self.render(*command, "--resume"))
+        self.assertEqual(self.skipped(), [False, False])
 
     def test_cache_only(self):
         scene = self.write_scene()

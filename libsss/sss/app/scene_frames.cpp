@@ -8,6 +8,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <iterator>
@@ -38,6 +39,12 @@ bool mayDeform(const JsonValue& object) {
             if (!isMotion(step) && isAnimated(step)) return true;
     }
     return false;
+}
+
+bool anyMayDeform(const JsonValue& root) {
+    const JsonValue* objects = memberOf(root, "objects");
+    return objects != nullptr && objects->isArray() &&
+           std::ranges::any_of(objects->items(), mayDeform);
 }
 
 }  // namespace
@@ -106,9 +113,7 @@ std::shared_ptr<const World> SceneFrames::world(const Scene& scene, bool& sameWo
 const World* SceneFrames::reference(const Scene& scene) {
     if (isReferenceMade_) return reference_.get();
     isReferenceMade_ = true;
-    const JsonValue* objects = memberOf(root_, "objects");
-    if (objects == nullptr || !objects->isArray()) return nullptr;
-    if (std::ranges::none_of(objects->items(), mayDeform)) return nullptr;
+    if (!anyMayDeform(root_)) return nullptr;
     SilentReporter silent;
     const int frame = scene.referenceFrame;
     try {
@@ -152,6 +157,13 @@ Fingerprint SceneFrames::pictureFingerprint(const Scene& scene) {
         if (const auto* mesh = std::get_if<MeshFileShape>(&shape)) h.add(contentOf(mesh->path));
     };
     for (const ObjectSettings& object : scene.objects) addShape(object.shape);
+    // Points stand where they were placed in the reference frame.
+    if (anyMayDeform(root_)) {
+        const JsonValue then = sceneAt(root_, scene.referenceFrame, file_.string());
+        h.add(dump(*memberOf(then, "objects"), -1));
+        for (const ObjectSettings& object : at(scene.referenceFrame).objects)
+            addShape(object.shape);
+    }
     for (const LightSettings& light : scene.lights) {
         const auto* environment = std::get_if<EnvironmentLight>(&light);
         if (environment != nullptr && !environment->map.empty()) h.add(contentOf(environment->map));

@@ -10,6 +10,7 @@
 #include <iterator>
 #include <span>
 #include <string>
+#include <string_view>
 
 // libpng's simplified interface: it reports errors by value instead of longjmp.
 namespace sss {
@@ -34,6 +35,23 @@ std::vector<char> contents(const std::filesystem::path& path) {
     if (!file || std::filesystem::is_directory(path))
         throw Error(ErrorKind::Io, path.string(), "cannot open the picture", "check the path");
     return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+}
+
+// Big-endian, as all numbers of a PNG.
+std::uint32_t numberAt(std::span<const char> bytes, std::size_t at) {
+    std::uint32_t n = 0;
+    for (const char c : bytes.subspan(at, 4)) n = n << 8 | static_cast<unsigned char>(c);
+    return n;
+}
+
+// The checksum of a chunk's type and data (PNG specification, annex D).
+std::uint32_t chunkChecksum(std::span<const char> bytes) {
+    std::uint32_t crc = 0xffffffffu;
+    for (const char c : bytes) {
+        crc ^= static_cast<unsigned char>(c);
+        for (int bit = 0; bit < 8; ++bit) crc = crc & 1 ? 0xedb88320u ^ crc >> 1 : crc >> 1;
+    }
+    return ~crc;
 }
 
 }  // namespace
@@ -80,6 +98,25 @@ Picture8 readPng(const std::filesystem::path& path) {
     if (png_image_finish_read(&png, nullptr, picture.values.data(), 0, nullptr) == 0)
         throw refuse(fmt::format("is damaged: {}", png.message));
     return picture;
+}
+
+bool isWholePng(const std::filesystem::path& path) {
+    std::error_code ignored;
+    if (!std::filesystem::is_regular_file(path, ignored)) return false;
+    const std::vector<char> bytes = contents(path);
+    constexpr std::string_view kSignature = "\x89PNG\r\n\x1a\n", kEnd = "IEND";
+    constexpr std::size_t kAround = 12;  // length, type and checksum of a chunk
+    if (!std::string_view(bytes.data(), bytes.size()).starts_with(kSignature)) return false;
+    std::span<const char> rest = std::span(bytes).subspan(kSignature.size());
+    while (rest.size() >= kAround) {
+        const std::size_t length = numberAt(rest, 0);
+        if (length > rest.size() - kAround) return false;
+        const std::span<const char> summed = rest.subspan(4, 4 + length);
+        if (numberAt(rest, 8 + length) != chunkChecksum(summed)) return false;
+        rest = rest.subspan(kAround + length);
+        if (std::string_view(summed.data(), 4) == kEnd) return rest.empty();
+    }
+    return false;
 }
 
 }  // namespace sss

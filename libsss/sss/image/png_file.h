@@ -20,4 +20,9 @@ void writePng(const std::filesystem::path& path, const Picture8& picture);
 /// Error{BadInput} for one that is no PNG, is damaged or over 2^28 pixels.
 Picture8 readPng(const std::filesystem::path& path);
 
+/// Whether it is a PNG file that is there to its last byte: signature, every chunk's checksum, and
+/// an end after which nothing comes. False for a missing file, too; pixels are not decoded. Throws
+/// Error{Io} for a file that may not be read.
+bool isWholePng(const std::filesystem::path& path);
+
 }  // namespace sss

@@ -54,5 +54,26 @@ TEST_F(PngFile, DamageIsAnError) {
     }
 }
 
+TEST_F(PngFile, AnyDamageShows) {
+    EXPECT_FALSE(isWholePng(folder_ / "none.png"));
+    EXPECT_FALSE(isWholePng(folder_.path()));
+    writePng(folder_ / "noise.png", noise(4));
+    EXPECT_TRUE(isWholePng(folder_ / "noise.png"));
+    writePng(folder_ / "a.png", {2, 1, 3, {1, 2, 3, 4, 5, 6}});
+    EXPECT_TRUE(isWholePng(folder_ / "a.png"));
+    const std::string whole = testing::readFile(folder_ / "a.png");
+    const auto isWhole = [&](const std::string& bytes) {
+        testing::writeFile(folder_ / "b.png", bytes);
+        return isWholePng(folder_ / "b.png");
+    };
+    EXPECT_FALSE(isWhole(whole + '\0'));
+    for (std::size_t i = 0; i < whole.size(); ++i) {
+        EXPECT_FALSE(isWhole(whole.substr(0, i))) << i << " bytes";
+        std::string damaged = whole;
+        damaged[i] = static_cast<char>(damaged[i] ^ 1 << i % 8);
+        EXPECT_FALSE(isWhole(damaged)) << "byte " << i;
+    }
+}
+
 }  // namespace
 }  // namespace sss
