@@ -5,7 +5,9 @@ whole is lost, and nothing that is not is taken for whole.
 usage: kill_test.py [KILLS]     of each program; 12 unless told otherwise
 """
 
+import fcntl
 import json
+import os
 import random
 import shutil
 import signal
@@ -103,6 +105,25 @@ class Kills(CliTest):
             self.kill(number, BIN / "sss-render", self.scene, "--frames", "1-4", "--cache", "t/",
                       "-o", "t.####.exr")
         self.assertEqual([p for p in self.folder.rglob("*.tmp-*")], [])
+
+    def test_what_a_killed_writer_left(self):
+        """Goes when the folder is opened next, unless its writer is alive or may be elsewhere."""
+        folder = self.folder / "k"
+        folder.mkdir()
+        young, old, held = (folder / f"points-0.ssp.tmp-{n}-1" for n in (1, 2, 3))
+        for path in (young, old, held):
+            path.write_bytes(b"half")
+        for path in (old, held):
+            os.utime(path, (0, 0))
+        with held.open("r+b") as file:
+            fcntl.lockf(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            self.assert_ok(self.preprocess(self.scene, "-o", "k/"))
+        self.assertEqual(sorted(folder.glob("*.tmp-*")), [young, held])
+        os.utime(young, (0, 0))
+        self.assert_ok(self.render(self.scene, "--cache", "k/", "--cache-only", "-o", "a.exr"))
+        self.assertEqual(sorted(folder.glob("*.tmp-*")), [young, held], "looking removes nothing")
+        self.assert_ok(self.preprocess(self.scene, "-o", "k/"))
+        self.assertEqual(list(folder.glob("*.tmp-*")), [])
 
     def check_full(self, folder, **limits):
         """Nothing fits: pass 1 fails with a sentence, and leaves no stage; pass 2 does without."""

@@ -1,5 +1,6 @@
 #include "sss/base/atomic_file.h"
 
+#include "sss/base/abandoned_files.h"
 #include "sss/base/error.h"
 
 #include <fcntl.h>
@@ -11,6 +12,7 @@
 #include <cerrno>
 #include <climits>
 #include <cstring>
+#include <utility>
 
 namespace sss {
 namespace {
@@ -80,6 +82,11 @@ AtomicFile::AtomicFile(std::filesystem::path target) : target_(checkedTarget(std
         registration_ = Registration::claim(temporary_.c_str());
         descriptor_ = open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
         code = errno;
+        if (descriptor_ >= 0 && !holdTemporary(descriptor_)) {
+            close(descriptor_);
+            descriptor_ = -1;
+            code = EEXIST;
+        }
         if (descriptor_ < 0) forgetTemporary();
     }
     if (descriptor_ < 0) fail(target_, "write", code);
@@ -123,10 +130,11 @@ void AtomicFile::overwrite(std::uint64_t offset, std::span<const std::byte> byte
 
 void AtomicFile::commit() {
     if (fsync(descriptor_) != 0) fail(target_, "flush", errno);
-    const int closed = close(descriptor_);
-    descriptor_ = -1;
-    if (closed != 0) fail(target_, "close", errno);
+    // Held until it has its name: a network's file system says at the first close what went wrong.
+    const int held = std::exchange(descriptor_, fcntl(descriptor_, F_DUPFD_CLOEXEC, 0));
+    if (close(held) != 0) fail(target_, "close", errno);
     if (rename(temporary_.c_str(), target_.c_str()) != 0) fail(target_, "rename into place", errno);
+    if (descriptor_ >= 0) close(std::exchange(descriptor_, -1));
     forgetTemporary();
 }
 

@@ -1,5 +1,6 @@
 #include "sss/cloud/stage_folder.h"
 
+#include "sss/base/abandoned_files.h"
 #include "sss/base/error.h"
 
 #include <fcntl.h>
@@ -37,6 +38,8 @@ StageFolder::StageFolder(std::filesystem::path folder, bool create) : folder_(st
                     create ? fmt::format("cannot make the folder: {}", code.message())
                            : "there is no such folder",
                     create ? "check that the place is writable" : "run sss-preprocess first");
+    if (create) removeAbandonedFiles(folder_);
+    if (create) removeAbandonedFiles(folder_);
 }
 
 std::filesystem::path StageFolder::file(Stage stage, const Fingerprint& made) const {

@@ -23,7 +23,8 @@ std::string_view stageName(Stage stage);
 /// or not at all.
 class StageFolder {
 public:
-    /// `create`: makes the folder if it is not there. Throws Error{Io}.
+    /// `create`: makes the folder if it is not there, and clears what killed processes left in it
+    /// half written (removeAbandonedFiles()). Throws Error{Io}.
     StageFolder(std::filesystem::path folder, bool create);
 
     const std::filesystem::path& path() const { return folder_; }

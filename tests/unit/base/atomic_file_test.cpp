@@ -1,5 +1,6 @@
 #include "sss/base/atomic_file.h"
 
+#include "sss/base/abandoned_files.h"
 #include "sss/base/error.h"
 #include "support/temporary_folder.h"
 
@@ -7,6 +8,7 @@
 #include <sys/resource.h>
 
 #include <algorithm>
+#include <atomic>
 #include <csignal>
 #include <memory>
 #include <thread>
@@ -107,6 +109,47 @@ TEST(AtomicFile, ALeftoverTemporaryOfADeadProcessIsInNobodysWay) {
     file.commit();
     EXPECT_EQ(readFile(folder / "out"), "new");
     EXPECT_EQ(readFile(next), "leftover");
+}
+
+TEST(AtomicFile, WhatAKilledWriterLeftIsRemovedAndNothingElse) {
+    using namespace std::chrono_literals;
+    const TemporaryFolder folder;
+    AtomicFile alive(folder / "out");
+    alive.append("half");
+    for (const char* name : {"out.tmp-1-2", "out", "out.tmp-1-", "out.tmp-x-2", "out.tmp-1-2.png"})
+        writeFile(folder / name, "x");
+    std::filesystem::create_directory(folder / "a.tmp-1-1");
+    removeAbandonedFiles(folder.path());
+    EXPECT_TRUE(std::filesystem::exists(folder / "out.tmp-1-2"));  // it may be from elsewhere
+    std::filesystem::last_write_time(folder / "out.tmp-1-2",
+                                     std::filesystem::file_time_type::clock::now() - 2h);
+    removeAbandonedFiles(folder.path());
+    EXPECT_FALSE(std::filesystem::exists(folder / "out.tmp-1-2"));
+    removeAbandonedFiles(folder.path(), 0s);
+    EXPECT_TRUE(std::filesystem::exists(alive.temporaryPath()));
+    EXPECT_EQ(folder.fileCount(), 6u);
+    alive.commit();
+    EXPECT_EQ(readFile(folder / "out"), "half");
+    removeAbandonedFiles(folder / "none");
+}
+
+TEST(AtomicFile, IsNotTornFromItsWriterAtItsBirth) {
+    using namespace std::chrono_literals;
+    const TemporaryFolder folder;
+    std::atomic<bool> isDone{false};
+    std::thread cleaner([&] {
+        while (!isDone) removeAbandonedFiles(folder.path(), 0s);
+    });
+    for (int i = 0; i < 500; ++i) {
+        AtomicFile file(folder / "out");
+        EXPECT_TRUE(std::filesystem::exists(file.temporaryPath()));
+        if (i % 20 != 0) continue;  // the disk takes its time
+        file.append("whole");
+        EXPECT_NO_THROW(file.commit());
+    }
+    isDone = true;
+    cleaner.join();
+    EXPECT_EQ(readFile(folder / "out"), "whole");
 }
 
 TEST(AtomicFile, AFullDiskLeavesTheOldFile) {
