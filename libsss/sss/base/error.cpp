@@ -3,15 +3,17 @@
 namespace sss {
 namespace {
 
-std::string sentence(const std::string& where, const std::string& what, const std::string& hint) {
-    std::string text = where.empty() ? what : where + ": " + what;
-    if (!hint.empty()) text += "; " + hint;
+std::string sentence(const std::string& where, std::string what, std::string hint) {
+    std::string text = where.empty() ? std::move(what) : where + ": " + std::move(what);
+    if (!hint.empty()) text += "; " + std::move(hint);
     return text;
 }
 
 }  // namespace
 
 Error::Error(ErrorKind kind, std::string where, std::string what, std::string hint)
-    : std::runtime_error(sentence(where, what, hint)), kind_(kind), where_(std::move(where)) {}
+    : std::runtime_error(sentence(where, std::move(what), std::move(hint))),
+      kind_(kind),
+      where_(std::move(where)) {}
 
 }  // namespace sss

@@ -89,6 +89,7 @@ public:
 
     JsonValue takeRoot() { return std::move(root_); }
 
+    // Names that nlohmann calls. NOLINTBEGIN(readability-identifier-naming)
     bool null() { return leaf(JsonValue()); }
     bool boolean(bool value) { return leaf(JsonValue(value)); }
     bool number_integer(number_integer_t value) { return leaf(JsonValue(value)); }
@@ -136,6 +137,7 @@ public:
                 ? "JSON knows numbers, \"strings\", true, false and null; no NaN, no Infinity"
                 : "");
     }
+    // NOLINTEND(readability-identifier-naming)
 
 private:
     /// How many bytes before the parser's position the trouble begins: a token in the wrong place
@@ -252,7 +254,7 @@ private:
     void newLine(int depth) {
         if (indent_ < 0) return;
         out_ += '\n';
-        out_.append(static_cast<std::size_t>(indent_ * depth), ' ');
+        out_.append(static_cast<std::size_t>(indent_) * static_cast<std::size_t>(depth), ' ');
     }
     void addNumber(double number) {
         constexpr double kExactIntegers = 9007199254740992.0;  // 2^53

@@ -20,6 +20,11 @@ constexpr double kFeaturePower = 0.5, kFeatureWidthDegrees = 0.082;
 struct Plane {
     int width, height;
     std::vector<double> values;
+
+    std::size_t index(int x, int y) const {
+        return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
+               static_cast<std::size_t>(x);
+    }
 };
 // One dimension of a filter, from -radius to radius.
 using Kernel = std::vector<double>;
@@ -30,14 +35,14 @@ Plane convolved(const Plane& in, const Kernel& kernel, bool alongX) {
     for (int y = 0; y < in.height; ++y)
         for (int x = 0; x < in.width; ++x) {
             double sum = 0;
-            for (int k = -radius; k <= radius; ++k) {
+            for (std::size_t i = 0; i < kernel.size(); ++i) {
+                const int k = static_cast<int>(i) - radius;
                 // Beyond the border its pixels repeat.
                 const int u = alongX ? std::clamp(x + k, 0, in.width - 1) : x;
                 const int v = alongX ? y : std::clamp(y + k, 0, in.height - 1);
-                sum += kernel[static_cast<std::size_t>(k + radius)] *
-                       in.values[static_cast<std::size_t>(v * in.width + u)];
+                sum += kernel[i] * in.values[in.index(u, v)];
             }
-            out.values[static_cast<std::size_t>(y * in.width + x)] = sum;
+            out.values[out.index(x, y)] = sum;
         }
     return out;
 }

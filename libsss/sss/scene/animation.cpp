@@ -78,7 +78,7 @@ JsonValue at(JsonPlace place, JsonValue value) {
 
 class FrameResolver {
 public:
-    FrameResolver(double frame, const ReadContext& context) : frame_(frame), context_(context) {}
+    explicit FrameResolver(double frame) : frame_(frame) {}
 
     JsonValue resolved(const Node& node) const {
         const JsonValue& value = node.value;
@@ -158,7 +158,6 @@ private:
     }
 
     double frame_;
-    const ReadContext& context_;
 };
 
 void collectFrames(const JsonValue& value, std::vector<double>& frames) {
@@ -180,7 +179,7 @@ void collectFrames(const JsonValue& value, std::vector<double>& frames) {
 JsonValue sceneAt(const JsonValue& root, int frame, const std::string& file) {
     if (!root.isObject()) return root;  // the reader says what is wrong with it
     const ReadContext context{file, {}};
-    const FrameResolver resolver(frame, context);
+    const FrameResolver resolver(frame);
     JsonValue scene = JsonValue::object();
     for (const JsonMember& member : root.members()) {
         const bool mayMove = std::find(std::begin(kAnimatedParts), std::end(kAnimatedParts),
@@ -206,8 +205,8 @@ std::vector<double> keyFrames(const JsonValue& value) {
     std::vector<double> frames;
     collectFrames(value, frames);
     std::ranges::sort(frames);
-    const auto [first, last] = std::ranges::unique(frames);
-    frames.erase(first, last);
+    // Not std::ranges::unique: clang 14, which builds the fuzzers, cannot compile GCC 12's.
+    frames.erase(std::unique(frames.begin(), frames.end()), frames.end());
     return frames;
 }
 
