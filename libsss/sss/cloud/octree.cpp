@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cstring>
+#include <functional>
 #include <numeric>
 #include <tuple>
 
@@ -115,9 +117,9 @@ void summarise(OctreeNode& node, const CloudView& cloud, const Range& range) {
     node.cubicMean = static_cast<float>(extent);
 }
 
-}  // namespace
-
-std::vector<std::uint32_t> mortonOrder(std::span<const Vec3> positions) {
+// `tie` orders what lies at one place; it is a total order.
+template <typename Tie>
+std::vector<std::uint32_t> orderOf(std::span<const Vec3> positions, const Tie& tie) {
     Bounds box;
     for (const Vec3& p : positions) box.add(p);
     const MortonGrid grid(box);
@@ -129,9 +131,29 @@ std::vector<std::uint32_t> mortonOrder(std::span<const Vec3> positions) {
     std::iota(order.begin(), order.end(), 0u);
     std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
         const Vec3 &p = positions[a], &q = positions[b];
-        return std::tie(codes[a], p.x, p.y, p.z, a) < std::tie(codes[b], q.x, q.y, q.z, b);
+        const auto left = std::tie(codes[a], p.x, p.y, p.z);
+        const auto right = std::tie(codes[b], q.x, q.y, q.z);
+        return left < right || (left == right && tie(a, b));
     });
     return order;
+}
+
+}  // namespace
+
+std::vector<std::uint32_t> mortonOrder(std::span<const Vec3> positions) {
+    return orderOf(positions, std::less<>());
+}
+
+std::vector<std::uint32_t> cloudOrder(const CloudView& cloud) {
+    std::vector<Vec3> positions;
+    positions.reserve(cloud.size());
+    for (const SurfacePoint& point : cloud.points) positions.push_back(point.position);
+    return orderOf(positions, [&](std::uint32_t a, std::uint32_t b) {
+        int order = std::memcmp(&cloud.points[a], &cloud.points[b], sizeof(SurfacePoint));
+        if (order == 0 && !cloud.irradiance.empty())
+            order = std::memcmp(&cloud.irradiance[a], &cloud.irradiance[b], sizeof(Rgb));
+        return order != 0 ? order < 0 : a < b;
+    });
 }
 
 std::vector<OctreeNode> buildOctree(const CloudView& cloud) {

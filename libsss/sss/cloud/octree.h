@@ -35,6 +35,11 @@ static_assert(sizeof(OctreeNode) == 96);
 /// (equal codes) are broken by position and then by old index.
 std::vector<std::uint32_t> mortonOrder(std::span<const Vec3> positions);
 
+/// The same for the points of a cloud in any order, by all that is in them: ties are broken by the
+/// bytes of the point and then of its irradiance (which may be left empty), so that the same points
+/// give the same cloud in whatever order they come.
+std::vector<std::uint32_t> cloudOrder(const CloudView& cloud);
+
 /// The octree of a cloud whose points stand in Morton order: breadth first, root at 0, nodes with
 /// one child left out. Sums are taken in double over the points in their order, so that children
 /// add up to their parent to the rounding of the stored floats. Leaves hold at most kLeafPoints,

@@ -113,9 +113,7 @@ namespace {
 // How samples are sorted to be a cloud; empty if they stand so.
 std::vector<std::uint32_t> cloudOrder(const SurfaceSamples& samples) {
     if (samples.inMortonOrder) return {};
-    std::vector<Vec3> positions;
-    for (const SurfacePoint& point : samples.points) positions.push_back(point.position);
-    return mortonOrder(positions);
+    return cloudOrder(CloudView{samples.points, {}});
 }
 
 template <typename T>

@@ -47,6 +47,7 @@ constexpr Lighting kLightings[] = {
          light[static_cast<int>(3 * std::uint64_t{i} / count)] = 1;
          return light;
      }},
+    {"any light", [](std::uint32_t i, std::uint32_t) { return 0.1f * inCube(i + 77, 0) + 1.0f; }},
 };
 
 }  // namespace
@@ -55,9 +56,7 @@ std::span<const Arrangement> arrangements() { return kArrangements; }
 std::span<const Lighting> lightings() { return kLightings; }
 
 HardCloud::HardCloud(std::vector<SurfacePoint> unsorted, std::vector<Rgb> light) {
-    std::vector<Vec3> positions;
-    for (const SurfacePoint& p : unsorted) positions.push_back(p.position);
-    for (const std::uint32_t i : mortonOrder(positions)) {
+    for (const std::uint32_t i : cloudOrder({unsorted, light})) {
         points.push_back(unsorted[i]);
         irradiance.push_back(light[i]);
     }
@@ -95,7 +94,8 @@ HardCloud makeCloud(const Arrangement& where, const Lighting& light, std::uint32
     std::vector<Rgb> irradiance(count);
     for (std::uint32_t i = 0; i < count; ++i) {
         points[i].position = where.place(i, count);
-        points[i].areaMm2 = 1;
+        points[i].areaMm2 = 1.0f + 0.04f * spread(i, 4);
+        points[i].normal = i % 5;
         irradiance[i] = light.irradiance(i, count);
     }
     return {std::move(points), std::move(irradiance)};

@@ -25,7 +25,7 @@ struct HardCloud {
     HardCloud scaled(float factor) const;
 };
 
-/// Where points lie, in mm, within some 10 mm of the origin; area 1 mm^2 each.
+/// Where points lie, in mm, within some 10 mm of the origin; areas 0.6 to 1.4 mm^2.
 struct Arrangement {
     std::string_view name;
     Vec3 (*place)(std::uint32_t index, std::uint32_t count);

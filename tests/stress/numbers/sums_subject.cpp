@@ -75,10 +75,16 @@ void compare(const HardCloud& cloud, const testing::Optics& optics, SumRows& row
     }
 }
 
-void checkOrderAndThreads(const HardCloud& cloud, SumRows& rows, const std::string& what) {
+void checkOrderAndThreads(const HardCloud& cloud, const testing::Optics& optics, SumRows& rows,
+                          const std::string& what) {
     const auto where = [&] { return what; };
+    const KernelTable table(optics.pointers(), 1e7, 0.5);
+    const auto receivers = receiversFor(cloud, 4);
+    const auto sums = sumByTree(cloud, table, receivers, kTolerance);
     const HardCloud other = cloud.shuffled(cloud.points.size());
     rows.shuffled.expect(sameBytes<OctreeNode>(cloud.nodes, other.nodes), where);
+    rows.shuffled.expect(sameBytes<Rgb>(sums, sumByTree(other, table, receivers, kTolerance)),
+                         where);
     for (const unsigned threads : {1u, 3u, 8u}) {
         const ThreadLimit limit(threads);
         rows.threads.expect(sameBytes<OctreeNode>(cloud.nodes, buildOctree(cloud.view())), where);
@@ -126,7 +132,7 @@ void hardClouds(Report& report, Scope scope) {
                 const HardCloud cloud = makeCloud(where, light, count);
                 checkNodes(cloud, rows.nodes, what);
                 compare(cloud, optics, rows, what);
-                checkOrderAndThreads(cloud, rows, what);
+                checkOrderAndThreads(cloud, optics, rows, what);
                 if (light.name == lightings().front().name && count > 8 && count < 2000)
                     checkScales(cloud, rows, what);
             }
@@ -139,7 +145,7 @@ void hardClouds(Report& report, Scope scope) {
             const HardCloud cloud = makeCloud(where, light, count);
             checkNodes(cloud, rows.nodes, what);
             compare(cloud, optics, rows, what);
-            if (count <= 1'000'000) checkOrderAndThreads(cloud, rows, what);
+            if (count <= 1'000'000) checkOrderAndThreads(cloud, optics, rows, what);
         }
     for (Row* row :
          {&rows.sound, &rows.nodes, &rows.truth, &rows.shuffled, &rows.threads, &rows.scaled})

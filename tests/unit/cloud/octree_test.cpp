@@ -22,10 +22,8 @@ struct Cloud {
         irradiance.push_back(e);
     }
     Cloud sorted() const {
-        std::vector<Vec3> positions;
-        for (const SurfacePoint& p : points) positions.push_back(p.position);
         Cloud result;
-        for (const std::uint32_t i : mortonOrder(positions)) {
+        for (const std::uint32_t i : cloudOrder(view())) {
             result.points.push_back(points[i]);
             result.irradiance.push_back(irradiance[i]);
         }
@@ -223,6 +221,34 @@ TEST(Octree, OneBrightPointAmongDarkOnes) {
     EXPECT_GT(lit, 4u);
     EXPECT_LT(lit, 22u);
     EXPECT_LT(nodes.size(), cloud.points.size());
+}
+
+TEST(Octree, PointsAtOnePlaceAreOrderedByWhatIsInThem) {
+    // Many on few places, all different otherwise: the order in which they come must not show.
+    for (const std::size_t count : {2u, 8u, 9u, 300u}) {
+        Rng rng(count);
+        Cloud cloud;
+        for (std::size_t i = 0; i < count; ++i)
+            cloud.add({static_cast<float>(i % 3), 0, static_cast<float>(i % 2)}, rng.uniform(),
+                      {rng.uniform(), rng.uniform(), rng.uniform()});
+        const Cloud sorted = cloud.sorted();
+        std::ranges::reverse(cloud.points);
+        std::ranges::reverse(cloud.irradiance);
+        const Cloud other = cloud.sorted();
+        EXPECT_EQ(sorted.irradiance, other.irradiance);
+        const auto nodes = buildOctree(sorted.view()), otherNodes = buildOctree(other.view());
+        ASSERT_EQ(nodes.size(), otherNodes.size());
+        EXPECT_EQ(std::memcmp(nodes.data(), otherNodes.data(), nodes.size() * sizeof(OctreeNode)),
+                  0);
+    }
+    // The same place, area and normal: by the irradiance, if it is given.
+    for (const float first : {1.0f, 2.0f}) {
+        Cloud pair;
+        pair.add({1, 2, 3}, 1, Rgb(first));
+        pair.add({1, 2, 3}, 1, Rgb(3.0f - first));
+        EXPECT_EQ(pair.sorted().irradiance, (std::vector<Rgb>{Rgb(2.0f), Rgb(1.0f)}));
+        EXPECT_EQ(cloudOrder({pair.points, {}}), (std::vector<std::uint32_t>{0, 1}));
+    }
 }
 
 TEST(Octree, EqualPointsKeepTheirOrder) {
