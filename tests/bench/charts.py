@@ -11,7 +11,7 @@ def draw(result, folder):
             f"{about['commit']}")
     for part, name, make in (
             ("pictures", "pictures", picture_plots.error_over_time),
-            ("pictures", "models", picture_plots.model_errors),
+            ("models", "models", picture_plots.model_errors),
             ("scenes", "error-over-time", plots.error_over_time),
             ("scenes", "time-over-tolerance", plots.time_over_tolerance),
             ("scenes", "tolerance-kept", plots.tolerance_kept),

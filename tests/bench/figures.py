@@ -19,8 +19,9 @@ def all_tables(result):
     """What was measured, in the order of the report."""
     made = []
     if result.get("pictures"):
-        made += [time_to_error(result["pictures"]), picture_curves(result["pictures"]),
-                 model_errors(result["pictures"])]
+        made += [time_to_error(result["pictures"]), picture_curves(result["pictures"])]
+    if result.get("models"):
+        made.append(model_errors(result["models"]))
     if result.get("peer", {}).get("scenes"):
         made.append(peer(result["peer"]))
     if "frame" in result:
@@ -119,15 +120,24 @@ def picture_curves(scenes):
 
 
 def model_errors(scenes):
-    rows = []
+    """A column a scene, so that the whole is one table."""
+    labels = {}
     for scene in scenes:
-        rows += [[scene["title"], model["label"],
-                  spread(model["mean"], model["meanStandardError"]),
-                  spread(model["rms"], model["rmsStandardError"])] for model in scene["models"]]
+        labels.update((model["name"], model["label"]) for model in scene["models"])
+    by_name = [{model["name"]: model for model in scene["models"]} for scene in scenes]
+
+    def cell(model):
+        if model is None:
+            return "-"
+        return (spread(model["mean"], model["meanStandardError"]) + "; "
+                + spread(model["rms"], model["rmsStandardError"]))
+    rows = [[label, *(cell(models.get(name)) for models in by_name)]
+            for name, label in labels.items()]
     return Table("What a model is wrong by, however long it runs",
-                 ["scene", "model", "mean difference", "RMS difference"], rows,
-                 "Against radiative transfer (volume), over the object's pixels and the mean there, "
-                 "with standard errors by the seeds of volume; the noise of both is taken off.",
+                 ["model", *(scene["title"] for scene in scenes)], rows,
+                 "Against radiative transfer (volume): mean; RMS difference over the object's "
+                 "pixels and the mean there, with standard errors by the seeds of volume; the noise "
+                 f"of both is taken off. {scenes[0]['size']} x {scenes[0]['size']} pixels.",
                  "models")
 
 

@@ -9,10 +9,10 @@ import re
 import subprocess
 import sys
 
-import models
 import pictures
 import programs
 from programs import BIN, SOURCE, BenchError
+from truth import mean_and_error
 
 ENVIRONMENT = SOURCE / "build/mitsuba"
 PACKAGES = ("mitsuba==3.*", "numpy")
@@ -109,7 +109,7 @@ def media(path):
 
 def side(means, seconds, samples):
     """Channel means over the seeds, their standard errors, and the CPU time of one picture."""
-    channels = [models.mean_and_error([mean[c] for mean in means]) for c in range(3)]
+    channels = [mean_and_error([mean[c] for mean in means]) for c in range(3)]
     return {"samples": samples, "seeds": len(means), "mean": [mean for mean, _ in channels],
             "standardError": [error for _, error in channels],
             "cpu": sum(seconds) / len(seconds)}

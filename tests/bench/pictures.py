@@ -1,4 +1,4 @@
-"""Whole pictures: every method's error over CPU time, and what every model's own error is.
+"""Whole pictures: every method's error over CPU time.
 
 Pictures of one seed and number of samples share their camera rays, whatever the integrator (but
 `volume`): what differs between them is the method. README.md says what each figure means.
@@ -11,9 +11,10 @@ import time
 
 import curves
 import hierarchy
-import models
 import programs
 from programs import BIN, SOURCE
+from stage import Stage
+from truth import Truth
 
 TARGETS = (0.02, 0.01)
 LAYER = "diffusion"
@@ -32,46 +33,9 @@ def measure(scale, options):
             print(f"  {title}: left out, its mesh is neither beside the scene nor in SSS_MESHES")
             continue
         began = time.monotonic()
-        measured.append(measure_scene(Stage(name, path, scale, options), title))
+        measured.append(measure_scene(Stage(name, path, scale, options, "pictures"), title))
         print(f"  {title}: {time.monotonic() - began:.0f} s", flush=True)
     return measured
-
-
-class Stage:
-    """A scene in the part's size, and its pictures: each is made once."""
-
-    def __init__(self, name, path, scale, options):
-        self.name, self.path, self.scale, self.options = name, path, scale, options
-        self.folder = options.out / "pictures" / name
-        self.scene = self.derived("scene")
-        self.made = {}
-
-    def derived(self, name, change=lambda scene: None):
-        def sized(scene):
-            size = self.scale["pictureSize"]
-            scene["film"].update(width=size, height=size, precision="float")
-            change(scene)
-        return programs.derived_scene(self.path, self.folder / f"{name}.json", sized)
-
-    def render(self, label, scene, samples, seed, *more, again=False):
-        """{file, png, cpu, stats, command} of a picture."""
-        file = self.folder / f"{label}-{samples}-{seed}.exr"
-        if again or file not in self.made:
-            stats = file.with_suffix(".stats.json")
-            command = [BIN / "sss-render", scene, "-o", file, "--samples", samples, "--seed", seed,
-                       "--quiet", *more]
-            spent = programs.cost([*command, "--stats", stats])
-            self.made[file] = {"file": file, "png": file.with_suffix(".png"), "cpu": spent["cpu"],
-                               "stats": json.loads(stats.read_text()),
-                               "command": programs.shown(command)}
-        return self.made[file]
-
-    def preprocess(self, scene, target):
-        """The CPU seconds of pass 1 and what it says of its body."""
-        stats = self.folder / f"{target.stem}.stats.json"
-        spent = programs.cost([BIN / "sss-preprocess", scene, "-o", target, "--seed", SEED,
-                               "--quiet", "--stats", stats])
-        return spent["cpu"], json.loads(stats.read_text())["values"]["bodies"][0]
 
 
 class Reference:
@@ -114,7 +78,8 @@ def measure_scene(stage, title):
     runs = [cached_run(stage, tolerance) for tolerance in scale["pictureTolerances"]]
     finest = runs[-1]
     reference = Reference(stage, finest["body"]["spacingMm"])
-    truth = models.Truth(stage, VOLUME_SEEDS)
+    truth = Truth(stage, VOLUME_SEEDS, scale["volumeSamples"], 4, scale["volumeSeconds"],
+                  scale["volumeSeeds"])
     methods = [cached(stage, runs, reference), *classic(stage, runs, reference),
                bssrdf(stage, reference), volume(truth, reference)]
     for method in methods:
@@ -131,7 +96,6 @@ def measure_scene(stage, title):
             str(n): math.sqrt(reference.pixel_variance(n)) for n in scale["pictureSamples"]}},
         "methods": methods,
         "truth": truth.describe(),
-        "models": models.measure(stage, truth, reference),
         "sideBySide": side_by_side(stage, methods, reference),
     }
 
@@ -151,7 +115,7 @@ def cached_run(stage, tolerance):
     samples = stage.scale["pictureSamples"][0]
     best = None
     for _ in range(stage.scale["pictureRuns"]):
-        first, body = stage.preprocess(scene, cache)
+        first, body = stage.preprocess(scene, cache, SEED)
         picture = stage.render(f"cached-{tolerance}", scene, samples, SEED, "--cache", cache,
                                again=True)
         if best is None or first + picture["cpu"] < best["first"] + best["picture"]["cpu"]:

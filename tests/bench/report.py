@@ -15,8 +15,9 @@ SECTIONS = (
     ("pictures", "Pictures", "The same picture by every method: what it costs and how wrong it is. "
      "Every error is the method's own: pictures compared share their camera rays, so that pixel "
      "sampling cancels; that of volume, which shares none, is taken off."),
-    ("models", "Models", "A method can only be as good as its model. Here converged pictures of "
-     "every diffusion profile, with single scattering, stand beside radiative transfer."),
+    ("models", "Models", "A method can only be as good as its model. Here pictures of every "
+     "diffusion profile and of diffusion on the shape, all with single scattering and all light that "
+     "enters again, stand beside radiative transfer."),
     ("peer", "A second judge", "The judge of the models, volume, beside another renderer's "
      "volumetric path tracer on the same scenes."),
     ("frame", "Whole scene", "The benchmark's bunny as a user renders it, and where its error comes "
@@ -168,5 +169,7 @@ def command_lines(result):
             for entry in method["curve"]:
                 if "command" in entry:
                     yield entry["command"]
+    for scene in result.get("models", []):
+        yield scene["truth"]["command"]
         for model in scene["models"]:
             yield model["command"]

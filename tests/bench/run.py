@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """The benchmark: what translucency costs and what error it has, always side by side.
 
-    run.py [--smoke | --quick | --full] [--only frame,scaling,hierarchy,pictures] [--out DIR]
-           [--fresh] [--peer mitsuba]
+    run.py [--smoke | --quick | --full] [--only frame,scaling,hierarchy,pictures,models]
+           [--out DIR] [--fresh] [--peer mitsuba]
 
 Needs a release build (sss-preprocess, sss-render, sss-bench; SSS_BIN_DIR, or build/release/bin);
 run.sh beside this file makes one first. Writes DIR/report.html, DIR/bench.json, CSV tables,
@@ -40,7 +40,9 @@ SCALES = {
         "pictureLight": 32, "pictureTruth": 0.05, "pictureReceivers": 128,
         "pictureAngles": [0.1, 0.01], "volumeSamples": [8, 32], "volumeSeconds": 1e9,
         "volumeSeeds": 3,
-        "models": ["dipole", "better_dipole"], "modelSamples": 8, "modelTolerance": 0.1,
+        "modelScenes": ["ketchup-slab"], "modelSize": 16, "models": ["dipole", "shape"],
+        "modelSamples": 8, "modelTolerance": 0.5, "modelVolumeSamples": [32, 64],
+        "modelVolumeSeconds": 1e9, "modelVolumeSeeds": 3,
     },
     # Some minutes: rough figures, reference 4 times as dense.
     "quick": {
@@ -52,8 +54,11 @@ SCALES = {
         "pictureTolerances": [0.1, 0.03, 0.01], "pictureSamples": [4, 32, 256], "pictureDenser": 3,
         "pictureLight": 48, "pictureTruth": 0.003, "pictureReceivers": 384,
         "pictureAngles": [0.3, 0.1, 0.03, 0.01], "volumeSamples": [4, 16384],
-        "volumeSeconds": 24, "volumeSeeds": 4, "modelSamples": 32, "modelTolerance": 0.05,
-        "models": ["dipole", "better_dipole", "photon_beam", "normalized_diffusion"],
+        "volumeSeconds": 24, "volumeSeeds": 4,
+        "modelScenes": list(models.SCENES)[:6], "modelSize": 32,
+        "models": ["dipole", "better_dipole", "photon_beam", "shape"], "modelSamples": 64,
+        "modelTolerance": 0.03, "modelVolumeSamples": [64, 16384], "modelVolumeSeconds": 90,
+        "modelVolumeSeeds": 6,
     },
     # All of it. The reference's many points average their own noise out, so that few light samples
     # are enough: "of the reference" says how well.
@@ -67,10 +72,13 @@ SCALES = {
         "pictureTolerances": [0.1, 0.03, 0.01, 0.003], "pictureSamples": [16, 64, 256],
         "pictureDenser": 4, "pictureLight": 48, "pictureTruth": 0.001, "pictureReceivers": 768,
         "pictureAngles": [0.3, 0.1, 0.03, 0.01, 0.003, 0.001], "volumeSamples": [16, 16384],
-        "volumeSeconds": 300, "volumeSeeds": 6, "modelSamples": 64, "modelTolerance": 0.01, "models": list(models.MODELS),
+        "volumeSeconds": 300, "volumeSeeds": 6,
+        "modelScenes": list(models.SCENES), "modelSize": 48, "models": list(models.MODELS),
+        "modelSamples": 64, "modelTolerance": 0.01, "modelVolumeSamples": [64, 65536],
+        "modelVolumeSeconds": 1500, "modelVolumeSeeds": 8,
     },
 }
-PARTS = ("frame", "scaling", "hierarchy", "pictures")
+PARTS = ("frame", "scaling", "hierarchy", "pictures", "models")
 
 
 def arguments():
@@ -118,6 +126,8 @@ def main():
         result["pictures"] = pictures.measure(scale, options)
         if options.peer:
             result["peer"] = peer.measure(scale, options, result["pictures"])
+    if "models" in options.parts:
+        result["models"] = models.measure(scale, options)
     (options.out / "bench.json").write_text(json.dumps(result, indent=1) + "\n")
     tables.write(result, options.out)
     draw(result, options.out)

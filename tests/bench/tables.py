@@ -14,7 +14,8 @@ def write(result, folder):
     if result.get("pictures"):
         save(folder / "pictures.csv", picture_rows(result["pictures"]))
         save(folder / "time-to-error.csv", time_rows(result["pictures"]))
-        save(folder / "models.csv", model_rows(result["pictures"]))
+    if result.get("models"):
+        save(folder / "models.csv", model_rows(result["models"]))
 
 
 def save(path, rows):
@@ -84,6 +85,7 @@ def time_rows(scenes):
 
 def model_rows(scenes):
     return [{"scene": scene["name"], "model": model["name"],
+             "cpuS": model["seconds"],
              **{key: model[key] for key in ("mean", "meanStandardError", "rms",
                                             "rmsStandardError")}}
             for scene in scenes for model in scene["models"]]
