@@ -12,6 +12,8 @@ SSS_PACKAGES=(
 )
 # For tests/run.sh only.
 SSS_TEST_PACKAGES=(clang-format clang-tidy python3-jsonschema)
+# For tests/run.sh --full only: a render farm of one machine.
+SSS_FARM_PACKAGES=(slurm-wlm)
 # For tests/stress/run.sh --full only.
 SSS_STRESS_PACKAGES=(clang libclang-rt-14-dev valgrind)
 # For tests/bench/run.sh only: its plots.

@@ -3,7 +3,7 @@
 #   release build and all its tests, the benchmark's plumbing among them; clang-format; all tests
 #   under the address and undefined-behaviour sanitizers.
 # --quick leaves out all but the first; --full adds the parallel parts under the thread sanitizer,
-# 200 kills of each program, and clang-tidy. Exit code 0 only if everything passed.
+# 200 kills of each program, a Slurm farm on this machine, and clang-tidy. Exit code 0 only if everything passed.
 set -uo pipefail
 source "$(dirname -- "${BASH_SOURCE[0]}")/../scenes/setup.sh"
 
@@ -50,7 +50,9 @@ check_format() {
 
 export TSAN_OPTIONS="suppressions=$SSS_ROOT/tests/tsan.supp ${TSAN_OPTIONS-}"
 
-sss_install "${SSS_PACKAGES[@]}" "${SSS_TEST_PACKAGES[@]}" || exit 1
+packages=("${SSS_PACKAGES[@]}" "${SSS_TEST_PACKAGES[@]}")
+[[ $scope == full ]] && packages+=("${SSS_FARM_PACKAGES[@]}")
+sss_install "${packages[@]}" || exit 1
 step "release" build_and_test release
 if [[ $scope != quick ]]; then
     step "clang-format" check_format
@@ -59,6 +61,7 @@ fi
 if [[ $scope == full ]]; then
     step "thread sanitizer" build_and_test tsan parallel_tests
     step "200 kills" /usr/bin/python3 "$SSS_ROOT/tests/cli/kill_test.py" 200
+    step "farm" /usr/bin/python3 "$SSS_ROOT/tests/cli/farm_test.py"
     step "clang-tidy" /usr/bin/python3 "$SSS_ROOT/tests/tidy.py" "$SSS_ROOT" "$SSS_ROOT/build/release"
 fi
 
