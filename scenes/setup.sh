@@ -10,6 +10,8 @@ SSS_PACKAGES=(
     libglm-dev libhwy-dev libtbb-dev libcli11-dev libfmt-dev nlohmann-json3-dev libxxhash-dev
     libgtest-dev libbenchmark-dev
 )
+# For scenes/demo.sh --animation only.
+SSS_VIDEO_PACKAGES=(ffmpeg)
 # For tests/run.sh only.
 SSS_TEST_PACKAGES=(clang-format clang-tidy python3-jsonschema)
 # For tests/run.sh --full only: a render farm of one machine.

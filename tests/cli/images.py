@@ -51,8 +51,9 @@ def predictor(kind, left, up, corner):
     return min(distances)[2]
 
 
-def read_exr_header(path):
-    """{attribute: raw bytes} of a single-part EXR file, and "channels" as a list of names."""
+def read_exr(path):
+    """({attribute: raw bytes}, all that comes after them) of a single-part EXR file: equal rests of
+    equal channels are equal pixels, bit for bit."""
     data = path.read_bytes()
     if data[:4] != b"\x76\x2f\x31\x01":
         raise ValueError(f"{path} is not an EXR file")
@@ -63,6 +64,12 @@ def read_exr_header(path):
         size = struct.unpack("<i", data[type_end + 1:type_end + 5])[0]
         attributes[data[at:name_end].decode()] = data[type_end + 5:type_end + 5 + size]
         at = type_end + 5 + size
+    return attributes, data[at + 1:]
+
+
+def read_exr_header(path):
+    """{attribute: raw bytes} of a single-part EXR file, and "channels" as a list of names."""
+    attributes, _ = read_exr(path)
     names, raw, at = [], attributes["channels"], 0
     while raw[at] != 0:
         end = raw.index(0, at)
