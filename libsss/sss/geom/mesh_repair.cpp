@@ -56,17 +56,20 @@ std::size_t removeUnreferenced(TriangleMesh& mesh) {
 
 }  // namespace
 
+void turnFaces(TriangleMesh& mesh, const std::vector<bool>& flip) {
+    for (FaceIndex face = 0; face < mesh.faces.size(); ++face)
+        if (flip[face]) std::swap(mesh.faces[face].y, mesh.faces[face].z);
+    if (!mesh.normals.empty()) turnNormals(mesh, flip);
+}
+
 WindingRepair repairWinding(TriangleMesh& mesh) {
     const WindingPlan plan = planWinding(mesh);
     WindingRepair repair;
     for (const WindingPlan::Component& component : plan.components)
         if (component.turned) ++repair.flippedComponents;
-    for (FaceIndex face = 0; face < mesh.faces.size(); ++face) {
-        if (!plan.flip[face]) continue;
-        std::swap(mesh.faces[face].y, mesh.faces[face].z);
-        ++repair.flippedFaces;
-    }
-    if (repair.flippedFaces > 0 && !mesh.normals.empty()) turnNormals(mesh, plan.flip);
+    repair.flippedFaces =
+        static_cast<std::size_t>(std::count(plan.flip.begin(), plan.flip.end(), true));
+    if (repair.flippedFaces > 0) turnFaces(mesh, plan.flip);
     return repair;
 }
 

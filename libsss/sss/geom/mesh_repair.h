@@ -8,7 +8,10 @@ struct WindingRepair {
     std::size_t flippedComponents = 0;  ///< turned as a whole
 };
 
-/// Turns faces as planWinding says, and shading normals that then point away from all their faces.
+/// Turns the faces that `flip` says, and shading normals that then point away from all their faces.
+void turnFaces(TriangleMesh& mesh, const std::vector<bool>& flip);
+
+/// Turns faces as planWinding says.
 WindingRepair repairWinding(TriangleMesh& mesh);
 
 struct RemovedParts {

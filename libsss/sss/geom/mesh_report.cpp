@@ -16,29 +16,30 @@ struct OpenEdge {
     std::uint32_t a, b;
 };
 
-/// Groups open edges that share vertices, and finds the longest group.
+/// Groups open edges that share vertices, and keeps the longest groups.
 void measureLoops(const TriangleMesh& mesh, const std::vector<OpenEdge>& open, MeshReport& report) {
-    struct Loop {
-        double length = 0;
-        DVec3 centre{0};
-    };
     DisjointSets sets(mesh.positions.size());
     for (const OpenEdge& e : open) sets.unite(e.a, e.b);
-    std::vector<Loop> loops(mesh.positions.size());
+    std::vector<OpenLoop> loops(mesh.positions.size());
     for (const OpenEdge& e : open) {
         const DVec3 a = mesh.positions[e.a], b = mesh.positions[e.b];
         const double length = glm::distance(a, b);
-        Loop& loop = loops[sets.find(e.a)];
-        if (loop.length == 0) ++report.openLoops;
+        OpenLoop& loop = loops[sets.find(e.a)];
+        ++loop.edges;
         loop.length += length;
         loop.centre += (a + b) * (0.5 * length);
         report.openLength += length;
     }
-    for (const Loop& loop : loops) {
-        if (loop.length <= report.longestLoopLength) continue;
-        report.longestLoopLength = loop.length;
-        report.longestLoopCentre = loop.centre / loop.length;
-    }
+    std::erase_if(loops, [](const OpenLoop& loop) { return loop.edges == 0; });
+    report.openLoops = loops.size();
+    const std::size_t kept = std::min(loops.size(), MeshReport::kLoopsKept);
+    const auto end = loops.begin() + static_cast<std::ptrdiff_t>(kept);
+    std::partial_sort(loops.begin(), end, loops.end(),
+                      [](const OpenLoop& a, const OpenLoop& b) { return a.length > b.length; });
+    loops.erase(end, loops.end());
+    for (OpenLoop& loop : loops)
+        if (loop.length > 0) loop.centre /= loop.length;
+    report.longestLoops = std::move(loops);
 }
 
 void inspectEdges(const TriangleMesh& mesh, const EdgeTable& edges, MeshReport& report) {
@@ -86,15 +87,29 @@ std::string place(const DVec3& p, double mmPerUnit) {
                        p.z * mmPerUnit);
 }
 
+}  // namespace
+
+std::string describeHoles(const MeshReport& r, double mmPerUnit) {
+    std::string list;
+    for (const OpenLoop& loop : r.longestLoops)
+        list += fmt::format("{}{}, {:.4g} mm around {}", list.empty() ? "" : "; ",
+                            counted(loop.edges, "edge", "edges"), loop.length * mmPerUnit,
+                            place(loop.centre, mmPerUnit));
+    if (r.openLoops > r.longestLoops.size())
+        list += fmt::format("; and {} shorter", r.openLoops - r.longestLoops.size());
+    return list;
+}
+
+namespace {
+
 void describeTopology(const MeshReport& r, double mmPerUnit, std::vector<std::string>& out) {
     if (r.openEdges > 0)
         out.push_back(fmt::format(
-            "the surface is open: {} in {}, {:.4g} mm in all, the longest {:.4g} mm around {}; "
-            "single scattering leaks there: close the holes in a mesh editor, or switch single "
-            "scattering off",
+            "the surface is open: {} in {}, {:.4g} mm in all ({}); single scattering leaks there: "
+            "close the holes in a mesh editor, or switch single scattering off",
             counted(r.openEdges, "open edge", "open edges"),
             counted(r.openLoops, "boundary", "boundaries"), r.openLength * mmPerUnit,
-            r.longestLoopLength * mmPerUnit, place(r.longestLoopCentre, mmPerUnit)));
+            describeHoles(r, mmPerUnit)));
     if (r.nonManifoldEdges > 0)
         out.push_back(fmt::format(
             "{} by three or more faces, the first at {}; inside and outside are not clear there: "

@@ -17,6 +17,13 @@ struct ReaderReport {
     bool ignoredNormals = false;  ///< the file has normals, but not for all corners
 };
 
+/// A connected run of open edges, most often one hole; length and place in the mesh's unit.
+struct OpenLoop {
+    std::size_t edges = 0;
+    double length = 0;
+    DVec3 centre{0};  ///< mean place, by length
+};
+
 /// What is unusual about a mesh; lengths and places in its own unit. Vertices at identical
 /// positions count as one wherever faces meet.
 struct MeshReport {
@@ -28,8 +35,8 @@ struct MeshReport {
     std::size_t openEdges = 0;  ///< with one face
     std::size_t openLoops = 0;  ///< connected runs of them
     double openLength = 0;      ///< of all open edges
-    double longestLoopLength = 0;
-    DVec3 longestLoopCentre{0};  ///< mean place of the longest loop, by length
+    static constexpr std::size_t kLoopsKept = 5;
+    std::vector<OpenLoop> longestLoops;  ///< up to kLoopsKept of them, the longest first
 
     std::size_t nonManifoldEdges = 0;  ///< with three or more faces
     DVec3 nonManifoldPlace{0};         ///< the middle of the first of them
@@ -47,6 +54,11 @@ struct MeshReport {
 
 /// Everything but what only a reader knows. Near linear: 270,000 faces take about 0.2 s.
 MeshReport inspectMesh(const TriangleMesh& mesh);
+
+/// Where the surface is open, the longest run of edges first: "4 edges, 100 mm around (0, 0, 20)
+/// mm;
+/// ..."; empty if it is not.
+std::string describeHoles(const MeshReport& report, double mmPerUnit);
 
 /// Plain sentences, one for each thing that deserves a warning, each with what the user can do.
 std::vector<std::string> describe(const MeshReport& report, double mmPerUnit);

@@ -121,16 +121,30 @@ std::string keyOf(const ObjectSettings& object, double mmPerUnit) {
                        std::visit(KeyMaker{}, object.shape));
 }
 
+// The sentence about a mesh that is inward as a whole, taken out of its report; or nothing.
+std::string takeInward(MeshReport& report, double mmPerUnit) {
+    if (report.flippedComponents == 0 || report.flippedComponents != report.components ||
+        report.inconsistentEdges > 0)
+        return {};
+    MeshReport inward;
+    inward.flippedFaces = std::exchange(report.flippedFaces, 0);
+    inward.flippedComponents = report.flippedComponents;
+    return describe(inward, mmPerUnit).front();
+}
+
 std::shared_ptr<const LoadedMesh> loadMesh(const ObjectSettings& object, double mmPerUnit,
-                                           Reporter& reporter) {
+                                           bool joins, Reporter& reporter) {
     auto loaded = std::make_shared<LoadedMesh>();
     MeshReport report;
     loaded->mesh = std::visit(ShapeMaker{mmPerUnit, report}, object.shape);
     const std::size_t facesRead = loaded->mesh.faceCount();
     // Reported in the mesh's own unit, before repair: what the user has to mend.
-    for (const std::string& sentence : describe(report, mmPerUnit))
+    MeshReport told = report;
+    if (joins) loaded->wasInward = takeInward(told, mmPerUnit);
+    for (const std::string& sentence : describe(told, mmPerUnit))
         reporter.warn("mesh", object.name + ": " + sentence);
-    if (needsRepair(report)) {
+    const bool isRepaired = needsRepair(report);
+    if (isRepaired) {
         const RemovedParts removed = removeUnusable(loaded->mesh);
         if (loaded->mesh.faces.empty())
             throw Error(ErrorKind::BadInput, sourceOf(object),
@@ -144,6 +158,7 @@ std::shared_ptr<const LoadedMesh> loadMesh(const ObjectSettings& object, double 
         report = inspectMesh(loaded->mesh);
     }
     loaded->closed = report.closed;
+    loaded->holes = describeHoles(report, isRepaired ? 1.0 : mmPerUnit);
     chooseNormals(loaded->mesh, object.normals);
     Hasher hasher;
     addMesh(hasher, loaded->mesh);
@@ -182,7 +197,10 @@ LoadedObject loadObject(const ObjectSettings& object, const Scene& scene, Report
     const std::string key = keyOf(object, mmPerUnit);
     if (store != nullptr) loaded.shape = store->find(key);
     if (loaded.shape == nullptr) {
-        loaded.shape = loadMesh(object, mmPerUnit, reporter);
+        const bool joins = !object.group.empty() &&
+                           std::holds_alternative<TranslucentMaterial>(
+                               scene.materials[static_cast<std::size_t>(object.material)].material);
+        loaded.shape = loadMesh(object, mmPerUnit, joins, reporter);
         if (store != nullptr) store->add(key, loaded.shape);
     }
     loaded.worldFromObject = resolveTransform(object, loaded.mesh());

@@ -14,6 +14,10 @@ namespace sss {
 struct LoadedMesh {
     TriangleMesh mesh;  ///< object space, mm; faces wound outward; normals as asked for
     bool closed = false;
+    std::string holes;  ///< where it is open, for people; object space, mm
+    /// That all of it was wound inward and has been turned: withheld from the reporter where a
+    /// group may show that it is the wall of a hollow.
+    std::string wasInward;
     Fingerprint content;  ///< of the mesh
 };
 

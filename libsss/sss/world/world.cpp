@@ -3,6 +3,7 @@
 #include "sss/base/error.h"
 #include "sss/light/light_table.h"
 #include "sss/medium/measured_media.h"
+#include "sss/world/nested_shells.h"
 #include "sss/world/volume_loader.h"
 
 #include <fmt/core.h>
@@ -90,9 +91,22 @@ void World::makeBodies(Reporter& reporter) {
                                 object.name, object.group, first.name),
                     "a group is one body: give its objects one material, or split the group");
         }
+        describeShells(group, turnNestedShells(group, loaded_, scene_), reporter);
         bodies_.push_back(joinBody(first.group.empty() ? first.name : first.group, group, loaded_,
                                    scene_, originMm_));
         describeBody(bodies_.back(), reporter);
+    }
+}
+
+void World::describeShells(const std::vector<int>& group, const std::vector<int>& turned,
+                           Reporter& reporter) const {
+    for (const int k : group) {
+        const std::string& name = scene_.objects[static_cast<std::size_t>(k)].name;
+        const std::string& wasInward = loaded_[static_cast<std::size_t>(k)].shape->wasInward;
+        if (std::find(turned.begin(), turned.end(), k) != turned.end())
+            reporter.info("mesh", name + ": lies inside its group: the wall of a hollow");
+        else if (!wasInward.empty())
+            reporter.warn("mesh", name + ": " + wasInward);
     }
 }
 
@@ -116,8 +130,21 @@ void World::describeBody(const Body& body, Reporter& reporter) const {
     if (!body.closed && translucent.onShape)
         reporter.warn("mesh", fmt::format("{}: diffusion cannot be solved on a shape without an "
                                           "inside: the profile \"{}\" stands in; close the open "
-                                          "edges named above",
-                                          body.name, translucent.profile));
+                                          "edges: {}",
+                                          body.name, translucent.profile, holesOf(body)));
+}
+
+// By object, in its own space, where the user meets them again.
+std::string World::holesOf(const Body& body) const {
+    std::string list;
+    for (const int k : body.objects) {
+        const LoadedMesh& shape = *loaded_[static_cast<std::size_t>(k)].shape;
+        if (shape.closed) continue;
+        const std::string& name = scene_.objects[static_cast<std::size_t>(k)].name;
+        list += fmt::format("{}{} ({})", list.empty() ? "" : "; ", name,
+                            shape.holes.empty() ? "edges of an odd number of faces" : shape.holes);
+    }
+    return list;
 }
 
 void World::makeParts() {

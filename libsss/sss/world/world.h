@@ -133,6 +133,9 @@ private:
     void makeLights();
     void makeGlows();
     void describeBody(const Body& body, Reporter& reporter) const;
+    void describeShells(const std::vector<int>& group, const std::vector<int>& turned,
+                        Reporter& reporter) const;
+    std::string holesOf(const Body& body) const;
 
     Scene scene_;
     std::vector<LoadedObject> loaded_;  // by object

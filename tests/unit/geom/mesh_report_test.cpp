@@ -32,15 +32,38 @@ TEST(MeshReport, FindsTheLongestHoleAndItsPlace) {
     const MeshReport report = inspectMesh(box);
     EXPECT_FALSE(report.closed);
     EXPECT_EQ(report.openLoops, 2u);
-    EXPECT_NEAR(report.longestLoopLength, 10, 1e-12);
-    EXPECT_LT(glm::distance(report.longestLoopCentre, DVec3(0, 0, 2)), 1e-12);
+    ASSERT_EQ(report.longestLoops.size(), 2u);
+    EXPECT_NEAR(report.longestLoops[0].length, 10, 1e-12);
+    EXPECT_LT(glm::distance(report.longestLoops[0].centre, DVec3(0, 0, 2)), 1e-12);
+    EXPECT_EQ(report.longestLoops[0].edges + report.longestLoops[1].edges, report.openEdges);
     EXPECT_GT(report.openLength, 10);
     EXPECT_EQ(report.components, 1u);
     EXPECT_EQ(report.closedComponents, 0u);
     const auto sentences = describe(report, 10);
     EXPECT_TRUE(mentions(sentences, "2 boundaries")) << sentences[0];
-    EXPECT_TRUE(mentions(sentences, "the longest 100 mm around")) << sentences[0];
+    EXPECT_TRUE(mentions(sentences, "mm in all (")) << sentences[0];
+    EXPECT_TRUE(mentions(sentences, " edges, 100 mm around")) << sentences[0];
     EXPECT_TRUE(mentions(sentences, ", 20) mm")) << sentences[0];
+}
+
+// Seven sheets, each larger than the one before: five holes are named, the rest counted.
+TEST(MeshReport, NamesTheFiveLongestHoles) {
+    TriangleMesh sheets;
+    for (int k = 1; k <= 7; ++k)
+        sheets = testing::joined(sheets, testing::moved(makeRectangle(k, k), {10.0 * k, 0, 0}));
+    const MeshReport report = inspectMesh(sheets);
+    EXPECT_EQ(report.openLoops, 7u);
+    ASSERT_EQ(report.longestLoops.size(), 5u);
+    for (int k = 0; k < 5; ++k) {
+        const OpenLoop& loop = report.longestLoops[static_cast<std::size_t>(k)];
+        EXPECT_EQ(loop.edges, 4u);
+        EXPECT_NEAR(loop.length, 4 * (7 - k), 1e-12);
+        EXPECT_NEAR(loop.centre.x, 10 * (7 - k), 1e-12);
+    }
+    const std::vector<std::string> said = describe(report, 1);
+    EXPECT_TRUE(mentions(said, "(4 edges, 28 mm around (70, 0, 0) mm; 4 edges, 24 mm around"))
+        << said[0];
+    EXPECT_TRUE(mentions(said, "around (30, 0, 0) mm; and 2 shorter)")) << said[0];
 }
 
 TEST(MeshReport, CountsAFanOfThreeOnOneEdge) {

@@ -55,6 +55,36 @@ TEST(Bodies, ObjectsOfAGroupAreOneBody) {
     EXPECT_EQ(world.bodies()[1].name, "o1");
 }
 
+// A ball with a hollow that holds a ball, as three objects: walls inward, the rest outward, in the
+// body's mesh and for rays, whichever way the objects are mirrored.
+TEST(Bodies, ShellsOfAGroupAreNested) {
+    for (const double mirror : {1.0, -1.0}) {
+        SceneMaker maker;
+        const int stone = maker.material(measured("Marble"));
+        const DMat4 placed = moved({4, 0, 1}) * glm::scale(DMat4(1.0), DVec3(1, mirror, 1));
+        maker.object(SphereShape{2}, stone, placed).group = "hollow";
+        maker.object(SphereShape{5}, stone, placed).group = "hollow";
+        maker.object(SphereShape{1}, stone, placed).group = "hollow";
+        maker.object(SphereShape{2}, stone, moved({20, 0, 0})).group = "hollow";
+        const World world = maker.world();
+        const Body& body = world.bodies().at(0);
+        ASSERT_TRUE(body.closed);
+        EXPECT_NEAR(volume(body.mesh) / (4 * kPi / 3 * (125 - 8 + 1 + 8)), 1, 0.01);
+        for (const FaceIndex f : body.firstFace) {
+            const SurfaceHit hit = world.surfaceOf(0, f, {0.3f, 0.3f});
+            const DVec3 out =
+                body.worldFromBody.transformDirection(glm::normalize(body.mesh.faceCross(f)));
+            EXPECT_GT(glm::dot(DVec3(hit.geometricNormal), out), 0.99);
+            EXPECT_GT(glm::dot(DVec3(hit.shadingNormal), out), 0.9);
+        }
+        // From the middle of the wall towards the hollow the surface is seen from inside.
+        const Vec3 wall(DVec3(7.5, 0, 1) - world.originMm());
+        Hit hit;
+        ASSERT_TRUE(world.rays().intersect(Ray{wall, Vec3(-1, 0, 0)}, hit));
+        EXPECT_LT(world.surfaceAt(hit).geometricNormal.x, -0.9f);
+    }
+}
+
 TEST(Bodies, MaterialsOfAGroupMustAgree) {
     SceneMaker maker;
     const int stone = maker.material(measured("Marble")),
