@@ -205,8 +205,8 @@ struct Leaving {
     }
 };
 
-// Radiative transfer by an independent Monte Carlo (20 million photons and more, standard error
-// 0.0003): uniform Lambertian light, exitance over transmitted light, green.
+// Radiative transfer by an independent Monte Carlo, standard error 0.0003: uniform Lambertian
+// light, exitance over transmitted light, green.
 TEST(Shape, BallsMatchRadiativeTransfer) {
     struct Known {
         const char* medium;

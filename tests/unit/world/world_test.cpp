@@ -1,10 +1,14 @@
 #include "sss/world/world.h"
 
 #include "sss/base/error.h"
+#include "sss/geom/shapes.h"
 #include "support/temporary_folder.h"
 #include "unit/integrate/scene_maker.h"
 
+#include <fmt/ostream.h>
 #include <gtest/gtest.h>
+
+#include <fstream>
 
 namespace sss {
 namespace {
@@ -20,6 +24,14 @@ Body bodyOf(const Shape& shape, const DMat4& placed) {
     maker.object(shape, maker.material(measured("Marble")), placed);
     return maker.world().bodies().at(0);
 }
+
+// What is warned of, all in one.
+struct Listener final : Reporter {
+    void info(std::string_view, std::string_view) override {}
+    void warn(std::string_view, std::string_view sentence) override { all += sentence; }
+    void progress(std::string_view, double, double, bool) override {}
+    std::string all;
+};
 
 // Volume by the divergence theorem: positive if the faces are wound outward.
 double volume(const TriangleMesh& mesh) {
@@ -82,6 +94,30 @@ TEST(Bodies, ShellsOfAGroupAreNested) {
         Hit hit;
         ASSERT_TRUE(world.rays().intersect(Ray{wall, Vec3(-1, 0, 0)}, hit));
         EXPECT_LT(world.surfaceAt(hit).geometricNormal.x, -0.9f);
+    }
+}
+
+// A mesh wound inward is right as the wall of a hollow; anywhere else it is told of and turned.
+TEST(Bodies, OnlyInwardMeshesThatAreNoWallsAreToldOf) {
+    const testing::TemporaryFolder folder;
+    const TriangleMesh box = makeBox(DVec3(2));
+    {
+        std::ofstream file(folder / "inward.obj");
+        for (const DVec3& p : box.positions) fmt::print(file, "v {} {} {}\n", p.x, p.y, p.z);
+        for (const UVec3& f : box.faces)
+            fmt::print(file, "f {} {} {}\n", f.x + 1, f.z + 1, f.y + 1);
+    }
+    for (const double at : {0.0, 20.0}) {
+        SceneMaker maker;
+        const int stone = maker.material(measured("Marble"));
+        maker.object(SphereShape{5}, stone).group = "g";
+        maker.object(MeshFileShape{folder / "inward.obj"}, stone, moved({at, 0, 0})).group = "g";
+        Listener listener;
+        const World world(maker.scene, listener);
+        EXPECT_EQ(listener.all.find("wound the wrong way") != std::string::npos, at > 0)
+            << listener.all;
+        const double expected = volume(makeSphere(5)) + (at > 0 ? 8 : -8);
+        EXPECT_NEAR(volume(world.bodies().at(0).mesh), expected, 1e-6);
     }
 }
 
@@ -285,12 +321,6 @@ TEST(World, ParticipatesEmittersAsLights) {
 
 // An open surface is reported, a closed one is not.
 TEST(World, ReportsWhatIsWrong) {
-    struct Listener final : Reporter {
-        void info(std::string_view, std::string_view) override {}
-        void warn(std::string_view, std::string_view sentence) override { all += sentence; }
-        void progress(std::string_view, double, double, bool) override {}
-        std::string all;
-    };
     for (const bool open : {false, true}) {
         SceneMaker maker;
         const int stone = maker.material(measured("Marble"));
