@@ -9,6 +9,7 @@
 #include "sss/base/parallel.h"
 #include "sss/base/rng.h"
 #include "sss/image/exr_file.h"
+#include "sss/image/film_memory.h"
 #include "sss/image/png_file.h"
 #include "sss/image/tone_map.h"
 #include "sss/integrate/integrator_table.h"
@@ -235,6 +236,7 @@ private:
     std::vector<StageRow> make(const Frame& frame, const Scene& scene, bool isLast) {
         if (!options_.frames.empty())
             reporter_.info("frame", fmt::format("{} of {}", frame.number, scene.file.string()));
+        requireFilmMemory(scene.film.width, scene.film.height, scene.film.layers);
         std::shared_ptr<const World> world;
         bool sameWorld = false;
         {

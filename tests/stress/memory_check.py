@@ -1,4 +1,4 @@
-"""One small render under valgrind, where that is installed."""
+"""One small render under valgrind."""
 
 import pathlib
 import shutil
@@ -13,10 +13,12 @@ MARK = 99
 
 
 def all_rows():
+    row = Row("memory", "both programs under valgrind: no error")
     valgrind = shutil.which("valgrind")
     if not valgrind:
+        row.expect("valgrind is not installed")
+        yield row
         return
-    row = Row("memory", "both programs under valgrind: no error")
     with tempfile.TemporaryDirectory(prefix="sss-stress-") as name:
         folder = pathlib.Path(name)
         (folder / "mesh.obj").write_text(obj(*BOX))

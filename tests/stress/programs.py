@@ -1,6 +1,7 @@
 """What the two programs make of hard meshes and too little memory, as rows of a report."""
 
 import json
+import math
 import os
 import pathlib
 import re
@@ -11,6 +12,7 @@ import tempfile
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "cli"))
 
+from hard_files import exr_header, write_empty, write_sky
 from hard_meshes import BOX, CORNERS, FACES, HARD_MESHES, REFUSED, RENDERS, grid, joined, moved, obj
 from harness import BIN, SHARED
 
@@ -37,8 +39,19 @@ class Row:
 
     def json(self):
         return {"subject": self.subject, "name": self.name, "cases": self.cases,
-                "worst": self.worst, "limit": self.limit, "worstAt": self.worst_at,
+                "worst": min(self.worst, 1e300), "limit": self.limit, "worstAt": self.worst_at,
                 "passed": self.cases > 0 and self.worst <= self.limit}
+
+
+def run_measured(folder, program, *arguments):
+    """(exit code, standard error, peak bytes of memory) of a program."""
+    with tempfile.TemporaryFile() as words:
+        process = subprocess.Popen([str(BIN / program), *map(str, arguments)], cwd=folder,
+                                   stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=words)
+        _, status, usage = os.wait4(process.pid, 0)
+        process.returncode = os.waitstatus_to_exitcode(status)
+        words.seek(0)
+        return process.returncode, words.read().decode(errors="replace"), 1024 * usage.ru_maxrss
 
 
 def run(folder, program, *arguments, address_space=None):
@@ -51,7 +64,8 @@ def run(folder, program, *arguments, address_space=None):
     return done.returncode, done.stderr.decode(errors="replace")
 
 
-def scene(objects, spacing=None):
+def scene(objects, spacing=None, sky=None, **more):
+    light = {"type": "environment", "map": sky} if sky else {"type": "environment", "radiance": 1}
     quality = {"tolerance": 0.2, "bounces": 0, "irradianceSamples": 4}
     if spacing:
         quality["spacingMm"] = spacing
@@ -61,7 +75,7 @@ def scene(objects, spacing=None):
         "film": {"width": 12, "height": 12, "samples": 1, "filter": "box"},
         "quality": quality,
         "materials": {"stone": {"type": "translucent", "medium": "Marble"}},
-        "objects": objects, "lights": [{"type": "environment", "radiance": 1}]})
+        "objects": objects, "lights": [light], **more})
 
 
 def mesh_object(file="mesh.obj", height=10, **more):
@@ -128,29 +142,56 @@ def touching_bodies(folder):
     yield row
 
 
+def is_sanitized():
+    """Sanitizers map terabytes: nothing can be learnt from limits of the address space."""
+    return b"__asan_init" in (BIN / "sss-preprocess").read_bytes()
+
+
+def limited_row(subject, name):
+    """(row, whether it can be tried): under a sanitizer it says that it was not."""
+    if is_sanitized():
+        row = Row(subject, name + " (not tried: a sanitizer's build)")
+        row.expect("")
+        return row, False
+    return Row(subject, name), True
+
+
+def least_address_space():
+    """What the programs take to start, with their shared libraries."""
+    least = 32 << 20
+    while run(".", "sss-preprocess", "--version", address_space=least)[0] != 0:
+        least += 4 << 20
+    return least
+
+
 def too_little_memory(folder, steps):
     """Pass 1 under ever less address space: it ends with the code for it, and the old cache stays."""
-    row = Row("memory", "sss-preprocess with too little address space: exit 5, old cache whole")
+    row, can_be_tried = limited_row(
+        "memory", "sss-preprocess with too little address space: exit 5, old cache whole")
+    if not can_be_tried:
+        yield row
+        return
     (folder / "mesh.obj").write_text(obj(*BOX))
-    (folder / "scene.json").write_text(scene([mesh_object()], spacing=0.05))
-    code, words = run(folder, "sss-preprocess", "scene.json", "-o", "a.ssc",
-                      address_space=3 << 30)
-    if code != 0:
-        return  # a sanitizer's shadow needs more: nothing to learn there
-    least = 32 << 20  # for the shared libraries to start
-    while run(folder, "sss-preprocess", "--version", address_space=least)[0] != 0:
-        least += 4 << 20
-    before = sorted(folder.iterdir())
-    (folder / "a.ssc").write_bytes(b"old")
-    for step in range(steps):
-        limit = least + step * (250 << 20) // steps
+    write_sky(folder / "sky.exr", 2048, 1024)
+    least = least_address_space()
+    for name, text in (("many points", scene([mesh_object()], spacing=0.05)),
+                       ("a large sky", scene([mesh_object()], spacing=2, sky="sky.exr"))):
+        (folder / "scene.json").write_text(text)
+        (folder / "a.ssc").unlink(missing_ok=True)
         code, words = run(folder, "sss-preprocess", "scene.json", "-o", "a.ssc",
-                          address_space=limit)
-        is_old = (folder / "a.ssc").read_bytes() == b"old"
-        fine = (code == RESOURCES and is_old) or (code == 0 and not is_old)
-        row.expect("" if fine and sorted(folder.iterdir()) == before
-                   else f"{limit >> 20} MiB: exit code {code}, {words[-300:]}")
+                          address_space=3 << 30)
+        row.expect(f"{name}, 3 GiB: exit code {code}, {words[-300:]}" if code else "")
+        before = sorted(folder.iterdir())
         (folder / "a.ssc").write_bytes(b"old")
+        for step in range(steps):
+            limit = least + step * (250 << 20) // steps
+            code, words = run(folder, "sss-preprocess", "scene.json", "-o", "a.ssc",
+                              address_space=limit)
+            is_old = (folder / "a.ssc").read_bytes() == b"old"
+            fine = (code == RESOURCES and is_old) or (code == 0 and not is_old)
+            row.expect("" if fine and sorted(folder.iterdir()) == before
+                       else f"{name}, {limit >> 20} MiB: exit code {code}, {words[-300:]}")
+            (folder / "a.ssc").write_bytes(b"old")
     yield row
 
 
@@ -169,8 +210,49 @@ def over_the_limit(folder):
     yield row
 
 
+def over_the_memory(folder):
+    """What is too large for the memory there is, is refused with both figures before it is taken."""
+    row, can_be_tried = limited_row(
+        "memory", "films, meshes, skies, grids, bodies over the memory: refused with both numbers")
+    if not can_be_tried:
+        yield row
+        return
+    gib = 1 << 30
+    box = {"shape": "box", "size": [4, 4, 4], "material": "stone"}
+    large = {"shape": "box", "size": [400, 400, 400], "material": "stone"}
+    balls = [{"shape": "sphere", "radius": 0.01, "material": "stone",
+              "transform": [{"translate": [i * 0.1, 0, 0]}]} for i in range(3000)]
+    fog = [{"shape": "box", "size": [9, 9, 9], "sigmaSPerMm": 1,
+            "grid": {"file": "fog.raw", "dimensions": [2048, 1024, 1024]}}]
+    write_empty(folder / "sparse.obj", 30 * gib)
+    write_empty(folder / "sky.exr", 1 << 20, exr_header(16384, 16384))
+    write_empty(folder / "fog.raw", 8 * gib)
+    for limit, program, text, pattern in (
+            (10 * gib, "sss-render", scene([box], film={"width": 32768, "height": 32768}),
+             r"32768 x 32768 pixels in \d+ layers would need \d+ GB.*there are 10\.7 GB; make"),
+            (10 * gib, "sss-preprocess", scene([mesh_object("sparse.obj")]),
+             r"sparse\.obj: a mesh file of 32\.2 GB would need 64\.4 GB.*there are .*simplify"),
+            (2 * gib, "sss-preprocess", scene([box], sky="sky.exr"),
+             r"sky\.exr: 16384 x 16384 pixels.*would need 3\.22 GB.*there are 2\.15 GB; scale it"),
+            (2 * gib, "sss-preprocess", scene([box], volumes=fog),
+             r"fog\.raw: a grid of 2048 x 1024 x 1024.* would need 8\.59 GB.*there are 2\.15 GB"),
+            (5 * gib, "sss-preprocess",
+             scene([large, {**large, "transform": [{"translate": [900, 0, 0]}]}], spacing=0.35),
+             r"points of its 2 bodies would need 5\.\d+ GB.*there are 5\.37 GB"),
+            (gib // 2, "sss-preprocess", scene(balls),
+             r"triangles of its first \d+ objects of 3000 would need .* GB.*there are 0\.537 GB")):
+        (folder / "scene.json").write_text(text)
+        output = "b.exr" if program == "sss-render" else "b.ssc"
+        code, words = run(folder, program, "scene.json", "-o", output, address_space=limit)
+        row.expect(complaint_of_refusal(code, words, pattern) if code == RESOURCES
+                   else f"exit code {code}: {words[-300:]}")
+    for name in ("sparse.obj", "sky.exr", "fog.raw"):
+        (folder / name).unlink()
+    yield row
+
+
 def large_meshes(folder):
-    """A million triangles; the shared meshes, where they are."""
+    """Millions of triangles; the shared meshes, where they are."""
     row = Row("meshes", "2 x 10^6 triangles, and the four shared meshes")
     (folder / "mesh.obj").write_text(grid(700))
     files = [folder / "mesh.obj"] + sorted((SHARED / "meshes").glob("*.*"))
@@ -183,15 +265,38 @@ def large_meshes(folder):
     yield row
 
 
+# What both together may take: 10^7 points are some 5 GB, 5 x 10^6 triangles some 2.
+MOST_BYTES = 24 << 30
+
+
+def ten_million_points(folder):
+    """A mesh of 5 x 10^6 triangles with 10^7 points on it, through both programs."""
+    row = Row("memory", "10^7 points on 5 x 10^6 triangles: GiB of the larger program", MOST_BYTES / 2 ** 30)
+    (folder / "mesh.obj").write_text(grid(1120))
+    (folder / "scene.json").write_text(scene([mesh_object("mesh.obj", 1)], spacing=0.0014))
+    for arguments in (("sss-preprocess", "scene.json", "-o", "a.ssc"),
+                      ("sss-render", "scene.json", "--cache", "a.ssc", "-o", "a.exr", "--no-keep")):
+        code, words, peak = run_measured(folder, *arguments)
+        row.add(peak / 2 ** 30 if code == 0 else math.inf,
+                f"{arguments[0]} ended with {code}: {words[-300:]}")
+        counted = re.search(r"(\d+) points, spacing", words)
+        if arguments[0] == "sss-preprocess":
+            points = int(counted.group(1)) if counted else 0
+            row.add(0 if points >= 10 ** 7 else math.inf, f"{points} points only")
+    yield row
+
+
 def all_rows(full):
     with tempfile.TemporaryDirectory(prefix="sss-stress-") as name:
         folder = pathlib.Path(name)
         yield from hard_meshes(folder)
         yield from touching_bodies(folder)
         yield from over_the_limit(folder)
-        yield from too_little_memory(folder, 100 if full else 12)
+        yield from over_the_memory(folder)
+        yield from too_little_memory(folder, 100 if full else 9)
         if full:
             yield from large_meshes(folder)
+            yield from ten_million_points(folder)
 
 
 def main():

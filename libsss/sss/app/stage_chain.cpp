@@ -2,12 +2,19 @@
 
 #include "sss/app/body_stats.h"
 #include "sss/app/stage_state.h"
+#include "sss/base/require_memory.h"
 #include "sss/integrate/diffuse_limit.h"
 
 #include <fmt/core.h>
 
+#include <algorithm>
+
 namespace sss {
 namespace {
+
+// What stages keep of a point in memory, while pass 1 is at other bodies: itself, its cell and its
+// share of the octree.
+constexpr std::uint64_t kBytesPerPointKept = 190;
 
 // The mesh on which a body's points are placed, if not its own: in the reference frame it has the
 // same faces, moved.
@@ -113,8 +120,32 @@ void StageChain::findLimits() {
 
 bool StageChain::isNeeded(std::size_t b) const { return !now_->optics[b]->inDiffuseLimit; }
 
+// Bodies that fit one by one may not fit together. What lies in files is the system's to keep.
+void StageChain::requireMemoryForAll() const {
+    if (folder_) return;
+    std::uint64_t points = 0, most = 0, bodies = 0;
+    for (std::size_t b = 0; b < stages_.size(); ++b) {
+        const BodyStage& stage = *stages_[b];
+        if (!isNeeded(b) || stage.hasLight) continue;
+        const Body& body = now_->world->bodies()[b];
+        const std::uint64_t wanted =
+            expectedPoints(*now_->world, body, *now_->optics[b], stage.placedOn);
+        if (wanted > options_.limits.mostPoints) return;  // placePoints() says so of this one
+        points += wanted;
+        most = std::max(most, wanted);
+        ++bodies;
+    }
+    if (bodies < 2) return;
+    requireMemory(now_->world->scene().file.string(),
+                  fmt::format("the {} points of its {} bodies", points, bodies),
+                  most * kBytesPerPoint + (points - most) * kBytesPerPointKept,
+                  "check the scale of the scene (metersPerUnit), raise the tolerance, or set "
+                  "--spacing");
+}
+
 void StageChain::prepare(std::shared_ptr<const World> world, const World* reference) {
     begin(std::move(world), reference);
+    requireMemoryForAll();
     for (std::size_t b = 0; b < stages_.size(); ++b)
         if (isNeeded(b)) bring(b);
     finish();

@@ -69,6 +69,7 @@ private:
     void adopt(std::size_t body);
     void findLimits();
     bool isNeeded(std::size_t body) const;
+    void requireMemoryForAll() const;
     void finish();
 
     // In stage_maker.cpp.

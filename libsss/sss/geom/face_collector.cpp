@@ -24,7 +24,7 @@ void FaceCollector::addFace(std::span<const std::uint32_t> corners) {
     faceEnds_.push_back(corners_.size());
 }
 
-void FaceCollector::checkRange(const std::string& where) const {
+void FaceCollector::checkRange(const std::string& where, std::size_t mostFaces) const {
     for (std::uint32_t corner : corners_)
         if (corner >= positions_.size())
             throw Error(ErrorKind::BadInput, where,
@@ -35,9 +35,9 @@ void FaceCollector::checkRange(const std::string& where) const {
         if (end - begin >= 3) triangles += end - begin - 2;
         begin = end;
     }
-    if (triangles > kMaxFaces || positions_.size() > kMaxFaces || corners_.size() > 0xffffffffu)
+    if (triangles > mostFaces || positions_.size() > mostFaces || corners_.size() > 0xffffffffu)
         throw Error(ErrorKind::BadInput, where,
-                    fmt::format("{} triangles; at most {} can be used", triangles, kMaxFaces),
+                    fmt::format("{} triangles; at most {} can be used", triangles, mostFaces),
                     "simplify the mesh");
 }
 
@@ -98,9 +98,9 @@ bool hasThreeDifferent(std::span<const std::uint32_t> face) {
 
 }  // namespace
 
-TriangleMesh FaceCollector::build(SievedMesh* exact, ReaderReport& report,
-                                  const std::string& where) {
-    checkRange(where);
+TriangleMesh FaceCollector::build(SievedMesh* exact, ReaderReport& report, const std::string& where,
+                                  std::size_t mostFaces) {
+    checkRange(where, mostFaces);
     TriangleMesh mesh;
     if (exact) {
         mesh.positions = std::move(exact->positions);

@@ -23,11 +23,13 @@ public:
     std::size_t cornerCount() const { return corners_.size(); }
 
     /// The triangles, with the positions and normals of the sieve if there was one (else null).
-    /// Fills `report`. Throws Error{BadInput} with `where`.
-    TriangleMesh build(SievedMesh* exact, ReaderReport& report, const std::string& where);
+    /// Fills `report`. Throws Error{BadInput} with `where`, also for more than `mostFaces`
+    /// triangles.
+    TriangleMesh build(SievedMesh* exact, ReaderReport& report, const std::string& where,
+                       std::size_t mostFaces);
 
 private:
-    void checkRange(const std::string& where) const;
+    void checkRange(const std::string& where, std::size_t mostFaces) const;
     void takeNormals(SievedMesh& exact, TriangleMesh& mesh, ReaderReport& report);
     void splitByNormal(const std::vector<Vec3>& cornerNormals, TriangleMesh& mesh);
 

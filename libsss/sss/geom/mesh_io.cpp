@@ -1,6 +1,7 @@
 #include "sss/geom/mesh_io.h"
 
 #include "sss/base/error.h"
+#include "sss/base/require_memory.h"
 #include "sss/geom/face_collector.h"
 #include "sss/geom/mesh_sieve.h"
 
@@ -27,6 +28,11 @@ namespace {
 namespace om = OpenMesh;
 
 enum class Format { Obj, Ply, Stl, Off };
+
+// What reading takes at the least for each byte of a file: itself, and what is made of it.
+constexpr std::uint64_t kBytesPerByte = 2;
+// Counts of what is in it then fit into 32 bits, whatever the format.
+constexpr std::uint64_t kMostFileBytes = std::uint64_t{64} << 30;
 
 /// Receives what a reader finds; OpenMesh's own importer would put it into a half-edge mesh, which
 /// refuses faces at non-manifold edges.
@@ -173,6 +179,15 @@ std::string readBytes(const std::filesystem::path& path) {
     if (!in || error)
         throw Error(ErrorKind::Io, path.string(), "the mesh file cannot be opened",
                     "check its permissions");
+    if (size > kMostFileBytes)
+        throw Error(ErrorKind::BadInput, path.string(),
+                    fmt::format("the mesh file has {:.3g} GB; at most {:.3g} can be used",
+                                1e-9 * static_cast<double>(size),
+                                1e-9 * static_cast<double>(kMostFileBytes)),
+                    "simplify the mesh, or split it into several objects");
+    requireMemory(path.string(),
+                  fmt::format("a mesh file of {:.3g} GB", 1e-9 * static_cast<double>(size)),
+                  kBytesPerByte * size, "simplify the mesh, or split it into several objects");
     std::string bytes(static_cast<std::size_t>(size), '\0');
     in.read(bytes.data(), static_cast<std::streamsize>(size));
     if (static_cast<std::uintmax_t>(in.gcount()) != size)
@@ -192,7 +207,7 @@ FaceCollector runReader(const char* reader, std::string bytes, const std::string
     StringBuffer buffer(bytes);
     std::istream stream(&buffer);
     if (!om::IO::IOManager().read(stream, reader, importer, options))
-        throw Error(ErrorKind::BadInput, where, "OpenMesh cannot read this mesh",
+        throw Error(ErrorKind::Internal, where, "OpenMesh refuses what the sieve let through",
                     "export it again, best as PLY");
     return collector;
 }
@@ -211,7 +226,7 @@ TriangleMesh readStl(std::string bytes, ReaderReport& report, const std::string&
     report.mergedVertices = report.fileVertices - collector.vertexCount();
     // This reader leaves out faces whose corners coincide by itself.
     report.droppedFaces = sieved.faces - collector.faceCount();
-    return collector.build(nullptr, report, where);
+    return collector.build(nullptr, report, where, kMaxFaces);
 }
 
 TriangleMesh readIndexed(Format format, std::string bytes, ReaderReport& report,
@@ -232,7 +247,7 @@ TriangleMesh readIndexed(Format format, std::string bytes, ReaderReport& report,
                         sieved.positions.size(), sieved.sizes.size(), sieved.corners.size()));
     report.fileFaces = sieved.sizes.size();
     report.fileVertices = sieved.positions.size();
-    return collector.build(&sieved, report, where);
+    return collector.build(&sieved, report, where, kMaxFaces);
 }
 
 }  // namespace

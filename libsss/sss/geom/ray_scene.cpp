@@ -1,6 +1,7 @@
 #include "sss/geom/ray_scene.h"
 
 #include "sss/base/error.h"
+#include "sss/base/require_memory.h"
 
 #include <embree3/rtcore.h>
 #include <fmt/core.h>
@@ -18,7 +19,7 @@ namespace {
 
 [[noreturn]] void throwEmbree(RTCError code, const char* doing, std::string_view words = {}) {
     // What its builders' tasks throw comes out as an unknown error; its words tell.
-    if (code == RTC_ERROR_OUT_OF_MEMORY || words == "out of memory" || words == "std::bad_alloc")
+    if (code == RTC_ERROR_OUT_OF_MEMORY || saysOutOfMemory(words))
         throw Error(ErrorKind::Resource, "rays", fmt::format("out of memory while {}", doing),
                     "use coarser meshes or a machine with more memory");
     throw Error(ErrorKind::Internal, "rays",

@@ -76,7 +76,6 @@ public:
             }
         }
         coordinates_.finish();
-        if (out.faces > 0xffffffffu) fail("too many faces");
         const auto faces = static_cast<std::uint32_t>(out.faces);
         std::memcpy(out.bytes.data() + 80, &faces, sizeof faces);
         return out;

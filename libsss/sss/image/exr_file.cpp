@@ -2,6 +2,7 @@
 
 #include "sss/base/atomic_file.h"
 #include "sss/base/error.h"
+#include "sss/base/require_memory.h"
 #include "sss/image/exr_header.h"
 
 #include <ImathBox.h>
@@ -26,6 +27,7 @@
 #include <cmath>
 #include <fstream>
 #include <limits>
+#include <new>
 #include <set>
 #include <string_view>
 
@@ -38,6 +40,11 @@ constexpr int kMaximumSide = 1 << 17;
 constexpr std::size_t kMaximumValues = std::size_t{1} << 30;  // 4 GiB of floats
 // No compression of the format packs flat pictures tighter than this many values a byte.
 constexpr std::size_t kMaximumValuesPerByte = 1 << 14;
+
+// OpenEXR hands on by its words alone what its tasks throw.
+void rethrowOutOfMemory(const std::exception& error) {
+    if (saysOutOfMemory(error.what())) throw std::bad_alloc();
+}
 
 // ---------------------------------------------------------------- writing
 
@@ -175,6 +182,7 @@ void requirePlausible(const std::filesystem::path& path, const ExrHeader& header
     const std::size_t fileSize = std::filesystem::file_size(path);
     if (pixels * header.channels / kMaximumValuesPerByte > fileSize)
         refuse(path, fmt::format("states {} in only {} bytes: it is damaged", size, fileSize));
+    requireMemory(path.string(), size, pixels * header.channels * sizeof(float), "scale it down");
 }
 
 LayeredImage emptyImageFor(const std::filesystem::path& path, const Imf::Header& header) {
@@ -259,6 +267,7 @@ void writeExr(const std::filesystem::path& path, const LayeredImage& image,
         out.close();
         if (!out) throw std::runtime_error("the disk or quota is full");
     } catch (const std::exception& error) {
+        rethrowOutOfMemory(error);
         throw Error(ErrorKind::Io, path.string(),
                     fmt::format("cannot write the picture: {}", error.what()),
                     "check that the folder has room");
@@ -283,6 +292,7 @@ LayeredImage readExr(const std::filesystem::path& path) {
     } catch (const Error&) {
         throw;
     } catch (const std::exception& error) {
+        rethrowOutOfMemory(error);
         refuse(path, fmt::format("cannot be read as OpenEXR: {}", error.what()));
     }
 }

@@ -2,6 +2,7 @@
 
 #include "sss/base/atomic_file.h"
 #include "sss/base/error.h"
+#include "sss/base/require_memory.h"
 
 #include <fmt/core.h>
 #include <png.h>
@@ -73,8 +74,10 @@ void writePng(const std::filesystem::path& path, const Picture8& picture) {
     png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(png);
     std::vector<std::byte> bytes(size);
     if (png_image_write_to_memory(&png, bytes.data(), &size, 0, picture.values.data(), 0,
-                                  nullptr) == 0)
+                                  nullptr) == 0) {
+        if (saysOutOfMemory(png.message)) throw std::bad_alloc();
         throw Error(ErrorKind::Io, path.string(), fmt::format("cannot encode: {}", png.message));
+    }
     AtomicFile file(path);
     file.append(std::span(bytes).first(size));
     file.commit();
@@ -84,6 +87,7 @@ Picture8 readPng(const std::filesystem::path& path) {
     const std::vector<char> bytes = contents(path);
     PngImage png;
     const auto refuse = [&](const std::string& what) -> Error {
+        if (saysOutOfMemory(png.message)) throw std::bad_alloc();
         return {ErrorKind::BadInput, path.string(), what, "save it again as PNG"};
     };
     if (png_image_begin_read_from_memory(&png, bytes.data(), bytes.size()) == 0)

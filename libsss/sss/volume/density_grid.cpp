@@ -2,6 +2,7 @@
 
 #include "sss/base/assert.h"
 #include "sss/base/error.h"
+#include "sss/base/require_memory.h"
 
 #include <fmt/core.h>
 
@@ -51,6 +52,10 @@ DensityGrid DensityGrid::read(const GridFile& file) {
                     fmt::format("has {} bytes, and {} x {} x {} nodes of {} floats take {}", bytes,
                                 file.nx, file.ny, file.nz, file.channels, count * sizeof(float)),
                     "check \"dimensions\" and \"channels\" of the grid");
+    requireMemory(where,
+                  fmt::format("a grid of {} x {} x {} nodes of {} floats", file.nx, file.ny,
+                              file.nz, file.channels),
+                  bytes, "use a coarser grid");
     std::vector<float> values(count);
     in.seekg(0);
     if (!in.read(reinterpret_cast<char*>(values.data()), static_cast<std::streamsize>(bytes)))

@@ -1,6 +1,7 @@
 #include "sss/world/world.h"
 
 #include "sss/base/error.h"
+#include "sss/base/require_memory.h"
 #include "sss/light/light_table.h"
 #include "sss/medium/measured_media.h"
 #include "sss/world/nested_shells.h"
@@ -17,10 +18,21 @@ std::uint32_t bodyMask(int body) { return 2u << (body % 31); }
 
 namespace {
 
+// What a triangle takes when the world is made: in its mesh, its body, its part and the rays' tree.
+constexpr std::uint64_t kBytesPerFace = 250;
+
+// Few objects of a scene can be many triangles: a sphere is some ten thousand.
 std::vector<LoadedObject> loadAll(const Scene& scene, Reporter& reporter, MeshStore* meshes) {
     std::vector<LoadedObject> loaded;
-    for (const ObjectSettings& object : scene.objects)
+    std::uint64_t faces = 0;
+    for (const ObjectSettings& object : scene.objects) {
         loaded.push_back(loadObject(object, scene, reporter, meshes));
+        faces += loaded.back().mesh().faceCount();
+        requireMemory(scene.file.string(),
+                      fmt::format("the {} triangles of its first {} objects of {}", faces,
+                                  loaded.size(), scene.objects.size()),
+                      faces * kBytesPerFace, "use fewer objects, or meshes with fewer triangles");
+    }
     return loaded;
 }
 

@@ -1,7 +1,10 @@
 #include "mesh_bytes.h"
 #include "sss/base/error.h"
+#include "sss/base/memory.h"
 #include "sss/base/rng.h"
+#include "sss/geom/face_collector.h"
 #include "sss/geom/mesh_io.h"
+#include "support/no_more_files.h"
 #include "support/temporary_folder.h"
 
 #include <gtest/gtest.h>
@@ -49,6 +52,63 @@ TEST(BrokenMesh, MissingFilesAndFoldersAreIoErrors) {
             EXPECT_EQ(error.kind(), ErrorKind::Io);
         }
     }
+}
+
+// Where the system has no such files, the sentence stays untried.
+TEST(BrokenMesh, FilesThatTheSystemWillNotGive) {
+    const testing::TemporaryFolder folder;
+    const auto wordsOf = [&](const std::filesystem::path& path) -> std::string {
+        try {
+            readMesh(path);
+        } catch (const Error& error) {
+            return error.what();
+        }
+        return "accepted";
+    };
+    testing::writeFile(folder / "a.obj", "v 0 0 0\n");
+    {
+        const testing::NoMoreFiles limit;
+        EXPECT_NE(wordsOf(folder / "a.obj").find("the mesh file cannot be opened; check its perm"),
+                  std::string::npos);
+    }
+    // States a page, and holds a line.
+    std::filesystem::create_symlink("/sys/devices/system/cpu/online", folder / "short.obj");
+    EXPECT_NE(wordsOf(folder / "short.obj").find("the mesh file cannot be read to its end"),
+              std::string::npos);
+    // Takes no room on the disk.
+    testing::writeFile(folder / "huge.obj", "");
+    std::error_code error;
+    std::filesystem::resize_file(folder / "huge.obj", std::uintmax_t{100} << 30, error);
+    ASSERT_FALSE(error) << error.message();
+    EXPECT_NE(wordsOf(folder / "huge.obj").find("has 107 GB; at most 68.7 can be used"),
+              std::string::npos);
+    const std::uintmax_t most = std::uintmax_t{64} << 30;
+    if (2 * most <= memoryLimitBytes()) return;
+    std::filesystem::resize_file(folder / "huge.obj", most);
+    EXPECT_NE(wordsOf(folder / "huge.obj").find("a mesh file of 68.7 GB would need 137 GB"),
+              std::string::npos)
+        << wordsOf(folder / "huge.obj");
+}
+
+TEST(BrokenMesh, CollectedFacesAreChecked) {
+    FaceCollector collector;
+    for (int i = 0; i < 4; ++i) collector.addVertex(Vec3(static_cast<float>(i)));
+    const std::uint32_t corners[]{0, 1, 2, 3};
+    collector.addFace(corners);
+    ReaderReport report;
+    const auto wordsOf = [&](std::size_t mostFaces) -> std::string {
+        try {
+            collector.build(nullptr, report, "a.ply", mostFaces);
+        } catch (const Error& error) {
+            return error.what();
+        }
+        return "accepted";
+    };
+    EXPECT_EQ(wordsOf(4), "accepted");
+    EXPECT_EQ(wordsOf(1), "a.ply: 2 triangles; at most 1 can be used; simplify the mesh");
+    const std::uint32_t beyond[]{0, 1, 4};
+    collector.addFace(beyond);
+    EXPECT_EQ(wordsOf(4), "a.ply: a face uses vertex 4 of 4; export the mesh again");
 }
 
 TEST(BrokenMesh, OtherExtensionsNameTheFour) {

@@ -164,13 +164,39 @@ TEST_F(ExrFile, AbsurdSizesAreRefusedBeforeAllocation) {
     const std::string whole = bytes(at("a.exr"));
     // "dataWindow", its type "box2i", its size 16, then xMin yMin xMax yMax.
     const std::size_t window = whole.find(std::string("dataWindow\0box2i\0", 17)) + 17 + 4;
-    for (const std::int32_t side : {99999, 2000000000, -5}) {
+    const std::pair<std::int32_t, const char*> sides[] = {
+        {99999, "states 100000 x 100000 pixels with 11 channels, more than is read here"},
+        {1999999999, "states 2000000000 x 2000000000 pixels with 11 channels, more than is read"},
+        {7999, "states 8000 x 8000 pixels with 11 channels in only"},
+        {-5, "states -4 x -4 pixels"}};
+    for (const auto& [side, words] : sides) {
         std::string damaged = whole;
         std::memcpy(&damaged[window + 8], &side, 4);
         std::memcpy(&damaged[window + 12], &side, 4);
         writeBytes(at("absurd.exr"), damaged);
-        EXPECT_FALSE(refusal(at("absurd.exr")).empty()) << side;
+        const std::string message = refusal(at("absurd.exr"));
+        EXPECT_NE(message.find(words), std::string::npos) << message;
     }
+}
+
+TEST_F(ExrFile, WhatOpenExrAndWeDoNotReadIsNamed) {
+    LayeredImage image{4, 4, {}, {}};
+    image.layers = {{"", {"Y"}, std::vector<float>(16, 1.0f), true}};
+    writeExr(at("a.exr"), image);
+    const std::string whole = bytes(at("a.exr"));
+    const auto expectWords = [&](const std::string& damaged, const char* words) {
+        writeBytes(at("b.exr"), damaged);
+        const std::string message = refusal(at("b.exr"));
+        EXPECT_NE(message.find(words), std::string::npos) << message;
+    };
+    // A channel is its name, its type, four bytes of no concern and how it is sampled in x and y.
+    std::string subsampled = whole;
+    const std::size_t channel = whole.find(std::string("chlist\0", 7)) + 7 + 4 + 2;
+    subsampled[channel + 8] = subsampled[channel + 12] = 2;
+    expectWords(subsampled, "b.exr: channel Y is subsampled; save it as plain RGB");
+    std::string damaged = whole;
+    damaged.back() = static_cast<char>(damaged.back() ^ 0x10);  // the checksum of its only block
+    expectWords(damaged, "b.exr: cannot be read as OpenEXR: ");
 }
 
 }  // namespace

@@ -23,13 +23,17 @@ TEST(RgbMap, TakesColourOrLuminance) {
 }
 
 TEST(RgbMap, RefusesWhatHasNoColours) {
-    EXPECT_THROW(rgbMap(LayeredImage{1, 1, {{"N", {"X"}, {1}, false}}, {}}, "map"), Error);
-    EXPECT_THROW(rgbMap(image({"R", "G"}, {1, 2}), "map"), Error);
-    try {
-        rgbMap(image({"Y"}, {1, std::nanf("")}), "map.exr");
-        FAIL();
-    } catch (const Error& error) {
-        EXPECT_NE(std::string(error.what()).find("map.exr: pixel (1, 0)"), std::string::npos);
+    const std::pair<LayeredImage, const char*> refused[] = {
+        {LayeredImage{1, 1, {{"N", {"X"}, {1}, false}}, {}}, "a.exr: has no plain colour channels"},
+        {image({"R", "G"}, {1, 2}), "a.exr: has neither channels R, G and B nor channel Y"},
+        {image({"Y"}, {1, std::nanf("")}), "a.exr: pixel (1, 0) is not finite"}};
+    for (const auto& [picture, words] : refused) {
+        try {
+            rgbMap(picture, "a.exr");
+            ADD_FAILURE() << "accepted where it should have said: " << words;
+        } catch (const Error& error) {
+            EXPECT_NE(std::string(error.what()).find(words), std::string::npos) << error.what();
+        }
     }
 }
 

@@ -1,9 +1,13 @@
 #include "sss/volume/density_grid.h"
 
 #include "sss/base/error.h"
+#include "sss/base/memory.h"
 #include "unit/volume/volume_tools.h"
 
 #include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
 
 namespace sss {
 namespace {
@@ -72,6 +76,22 @@ TEST(DensityGrid, RefusesWhatCannotBe) {
     file.path = folder.path() / "none.raw";
     EXPECT_EQ(complaintAbout(file),
               file.path.string() + ": cannot be opened as a grid of densities");
+    // States a page, and holds a line.
+    const GridFile system{"/sys/devices/system/cpu/online", 16, 16, 4, 1};
+    if (std::filesystem::exists(system.path) && std::filesystem::file_size(system.path) == 4096) {
+        EXPECT_EQ(complaintAbout(system), system.path.string() + ": cannot be read to its end");
+    }
+    // Takes no room on the disk.
+    file = {folder.path() / "huge.raw", 4096, 4096, 4096, 4};
+    std::ofstream(file.path).flush();
+    std::filesystem::resize_file(file.path, std::uintmax_t{1} << 40);
+    if (memoryLimitBytes() < std::uint64_t{1} << 40) {
+        EXPECT_EQ(complaintAbout(file).find(
+                      file.path.string() + ": a grid of 4096 x 4096 x 4096 nodes of 4 floats would "
+                                           "need 1.1e+03 GB of memory; there are "),
+                  0u)
+            << complaintAbout(file);
+    }
 }
 
 }  // namespace
