@@ -80,12 +80,6 @@ std::vector<double> radiiOf(const ProfileRequest& request, const Medium& medium)
     return radii;
 }
 
-/// 2 pi integral of R_d r dr from 0 to r. total - tail, but for r so small that it would cancel.
-double cumulative(const Profile& profile, double r) {
-    const double area = kPi * r * r;
-    return area > 0 ? profile.meanOverDisk(area) * area : 0.0;
-}
-
 void printHead(const ProfileSubject& subject, const Profiles& profiles) {
     const Medium& m = subject.medium;
     std::string head;
@@ -150,7 +144,7 @@ void printProfile(const ProfileRequest& request, std::optional<double> metersPer
     for (const double r : radiiOf(request, subject.medium)) {
         std::vector<std::string> cells{number(r)};
         for (const auto& profile : profiles) cells.push_back(number(profile->reflectance(r)));
-        for (const auto& profile : profiles) cells.push_back(number(cumulative(*profile, r)));
+        for (const auto& profile : profiles) cells.push_back(number(profile->cumulative(r)));
         printRow(cells, request.csv);
     }
 }

@@ -21,14 +21,14 @@ BetterDipole::BetterDipole(const ChannelMedium& medium, BoundaryModel boundary)
 }
 
 double BetterDipole::reflectance(double rMm) const {
-    const double r = rMm * sigmaTPrime_;
+    const double r = reducedRadius(rMm, sigmaTPrime_);
     const ImagePair pair(1, virtualHeight_, sigmaTr_, r);
     return strength_ * (fluenceWeight_ * pair.fluence + fluxWeight_ * pair.flux) / (4 * kPi) *
            sigmaTPrime_ * sigmaTPrime_;
 }
 
 double BetterDipole::tail(double aMm) const {
-    const double a = aMm * sigmaTPrime_;
+    const double a = reducedRadius(aMm, sigmaTPrime_);
     const double flux =
         fluxKernelTail(1, sigmaTr_, a) + fluxKernelTail(virtualHeight_, sigmaTr_, a);
     const double fluence = fluenceKernelTail(1, virtualHeight_, sigmaTr_, a);

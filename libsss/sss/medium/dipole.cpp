@@ -23,13 +23,13 @@ Dipole::Dipole(const ChannelMedium& medium, BoundaryModel boundary)
       virtualHeight_(1 + 4.0 / 3.0 * dipoleBoundaryFactor(medium.eta, boundary)) {}
 
 double Dipole::reflectance(double rMm) const {
-    const double r = rMm * sigmaTPrime_;
+    const double r = reducedRadius(rMm, sigmaTPrime_);
     const double sum = fluxKernel(1, sigmaTr_, r) + fluxKernel(virtualHeight_, sigmaTr_, r);
     return reducedAlbedo_ * sum / (4 * kPi) * sigmaTPrime_ * sigmaTPrime_;
 }
 
 double Dipole::tail(double aMm) const {
-    const double a = aMm * sigmaTPrime_;
+    const double a = reducedRadius(aMm, sigmaTPrime_);
     return 0.5 * reducedAlbedo_ *
            (fluxKernelTail(1, sigmaTr_, a) + fluxKernelTail(virtualHeight_, sigmaTr_, a));
 }

@@ -2,6 +2,7 @@
 
 #include "sss/base/error.h"
 #include "sss/base/near_name.h"
+#include "sss/medium/single_scatter.h"
 
 #include <fmt/format.h>
 

@@ -154,46 +154,6 @@ std::vector<double> diffuseEntry(const std::vector<Direction>& directions) {
     return flux;
 }
 
-/// Mean over the azimuth of the phase function for directions in and out on either side of the
-/// normal: cos Theta = -mu mu' - sin sin' cos phi.
-double meanPhase(double in, double out, double g, int steps) {
-    if (g == 0) return 1 / (4 * kPi);
-    const double along = -in * out;
-    const double across = std::sqrt(std::max(0.0, (1 - in * in) * (1 - out * out)));
-    // The trapezoidal rule on a period converges exponentially.
-    double sum = 0;
-    for (int i = 0; i < steps; ++i) {
-        const double angle = kPi * (i + 0.5) / steps;
-        const double cosTheta = along + across * std::cos(angle);
-        const double d = 1 + g * g - 2 * g * cosTheta;
-        sum += 1 / (d * std::sqrt(d));
-    }
-    return (1 - g) * (1 + g) / (4 * kPi) * sum / steps;
-}
-
-/// Directions through which light passes, graded towards grazing, where Fresnel's formulas vary
-/// fast for eta near 1, and towards the normal, where backward phase functions have their peak.
-std::vector<Direction> passingDirections(double eta, double g) {
-    std::vector<double> edges{0.0, 1e-3, 0.01, 0.1, 0.4, 1.0};
-    if (g < -0.3) edges = {0.0, 1e-3, 0.01, 0.1, 0.4, 0.7, 0.9, 0.97, 0.99, 0.998, 0.9996, 1.0};
-    std::vector<Direction> directions;
-    for (std::size_t k = 0; k + 1 < edges.size(); ++k) {
-        const double width = edges[k + 1] - edges[k];
-        for (const GaussPoint& point : kGauss16) {
-            const double x = edges[k] + width * point.node;
-            if (eta > 1) {
-                const double mu = refractedCosine(x, eta);
-                directions.push_back(
-                    {mu, width * point.weight * x / (eta * eta * mu), fresnelReflectance(x, eta)});
-            } else {
-                directions.push_back(
-                    {x, width * point.weight, fresnelReflectanceFromInside(x, eta)});
-            }
-        }
-    }
-    return directions;
-}
-
 }  // namespace
 
 HalfSpaceTotals halfSpaceTotals(const ChannelMedium& medium) {
@@ -214,25 +174,6 @@ HalfSpaceTotals halfSpaceTotals(const ChannelMedium& medium) {
     along.back() = 1;
     return {leaving(reflect, directions, along),
             leaving(reflect, directions, diffuseEntry(directions))};
-}
-
-double singleScatterAlbedo(const ChannelMedium& medium, Illumination illumination) {
-    if (medium.sigmaS == 0) return 0;
-    const std::vector<Direction> directions = passingDirections(medium.eta, medium.g);
-    const int steps = std::clamp(static_cast<int>(10 / (1 - std::abs(medium.g))), 16, 128);
-    const auto outOf = [&](double in) {
-        double sum = 0;
-        for (const Direction& d : directions) {
-            sum += meanPhase(in, d.cosine, medium.g, steps) * (1 - d.reflectance) * d.cosine /
-                   (in + d.cosine) * d.weight;
-        }
-        return 2 * kPi * medium.albedo() * sum;
-    };
-    if (illumination == Illumination::Normal) return outOf(1.0);
-    const std::vector<double> entry = diffuseEntry(directions);
-    double sum = 0;
-    for (std::size_t i = 0; i < entry.size(); ++i) sum += entry[i] * outOf(directions[i].cosine);
-    return sum;
 }
 
 }  // namespace sss

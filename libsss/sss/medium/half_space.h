@@ -17,9 +17,4 @@ struct HalfSpaceTotals {
 /// exactly 1 without absorption, 0 without scattering. About 20 ms.
 HalfSpaceTotals halfSpaceTotals(const ChannelMedium& medium);
 
-/// Share of the transmitted flux that leaves after exactly one scattering, straight from there
-/// through the boundary (light reflected inside scatters again): the rigorous half-space formula
-/// L = alpha p F_t F_t mu_i / (eta^2 (mu_i' + mu_o')), integrated. Relative error below 1e-6.
-double singleScatterAlbedo(const ChannelMedium& medium, Illumination illumination);
-
 }  // namespace sss

@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <cmath>
 
 namespace sss {
@@ -6,7 +7,14 @@ namespace sss {
 // The two kernels of all image-source models, for a point source at height z above or below the
 // surface, at distance r along it, d = sqrt(r^2 + z^2). Both without 1/(4 pi).
 
-/// Distance from height z to a point at r on the surface; lengths below 1e150.
+/// A radius in mean free paths, at most 1e120 of them: no power that a profile takes of it
+/// overflows, and R_d has been below the smallest double for long.
+inline double reducedRadius(double rMm, double sigmaTPrime) {
+    return std::min(rMm * sigmaTPrime, 1e120);
+}
+
+/// Distance from height z to a point at r on the surface; lengths below 1e150, as reducedRadius
+/// makes them. Below 1e-150 the squares vanish, which matters only where both are that small.
 inline double slant(double r, double z) { return std::sqrt(r * r + z * z); }
 
 /// Flux kernel z (1 + sigma d) e^{-sigma d} / d^3: odd in z, free of cancellation; 0 for a source

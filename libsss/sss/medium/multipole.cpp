@@ -124,7 +124,7 @@ double Multipole::modeTail(double a) const {
 
 double Multipole::reflectance(double rMm) const {
     if (reducedAlbedo_ == 0) return 0;
-    const double r = rMm * sigmaTPrime_;
+    const double r = reducedRadius(rMm, sigmaTPrime_);
     const double sum = isFar(r) ? modeSum(r) : imageSum(r);
     // Rounding may leave -1e-17 of the peak.
     const double kept = literal_ ? sum : std::max(sum, 0.0);
@@ -133,7 +133,7 @@ double Multipole::reflectance(double rMm) const {
 
 double Multipole::tail(double aMm) const {
     if (reducedAlbedo_ == 0) return 0;
-    const double a = aMm * sigmaTPrime_;
+    const double a = reducedRadius(aMm, sigmaTPrime_);
     if (a == 0) return total();
     if (isFar(a)) return 0.5 * reducedAlbedo_ * modeTail(a);
     const double outside = total() - 0.5 * reducedAlbedo_ * imageCumulative(a);

@@ -17,7 +17,8 @@ double fitLengthMm(NormalizedFit fit, const ChannelMedium& medium) {
                     "infinite and this fit has no length",
                     "use normalized_diffusion, which is built on the volume mean free path");
     }
-    return 1 / std::sqrt(3 * medium.sigmaA * medium.sigmaTPrime());
+    // Two roots: the product of small coefficients would be 0.
+    return 1 / (std::sqrt(3 * medium.sigmaA) * std::sqrt(medium.sigmaTPrime()));
 }
 
 double albedoOf(const ChannelMedium& medium, const ProfileOptions& options) {
@@ -57,7 +58,7 @@ double NormalizedDiffusion::reflectance(double rMm) const {
     if (albedo_ == 0) return 0;
     if (rMm == 0) return std::numeric_limits<double>::infinity();
     const double x = rMm / lengthMm_;
-    return albedo_ * (std::exp(-x) + std::exp(-x / 3)) / (8 * kPi * lengthMm_ * rMm);
+    return albedo_ * (std::exp(-x) + std::exp(-x / 3)) / (8 * kPi * lengthMm_) / rMm;
 }
 
 double NormalizedDiffusion::tail(double aMm) const {

@@ -33,6 +33,8 @@ double gradedQuadrature(double first, double longest, double range, const Functi
 
 /// Attenuations beyond this are 0: e^-45 = 3e-20.
 constexpr double kRange = 45;
+/// In mean free paths; products of six such lengths are still numbers.
+constexpr double kNearest = 1e-50;
 
 }  // namespace
 
@@ -76,12 +78,13 @@ double PhotonBeam::tail(double aMm) const {
 double PhotonBeam::reflectance(double rMm) const {
     if (medium_.sigmaS == 0) return 0;
     if (rMm == 0) return std::numeric_limits<double>::infinity();
-    const double r = rMm * sigmaTPrime_;
-    const double scale = sigmaTPrime_ * sigmaTPrime_;
-    if (samples_ > 0) {
-        return scale * (part_ == Part::Multiple ? multipleSampled(r) : singleSampled(r));
-    }
-    return scale * (part_ == Part::Multiple ? multiple(r) : single(r));
+    const double r = reducedRadius(rMm, sigmaTPrime_);
+    double value = 0;
+    if (samples_ > 0)
+        value = part_ == Part::Multiple ? multipleSampled(r) : singleSampled(r);
+    else
+        value = part_ == Part::Multiple ? multipleNearAndFar(r) : singleNearAndFar(r);
+    return sigmaTPrime_ * sigmaTPrime_ * value;
 }
 
 // [HCJ13 Eq. 9, 10]: dipole of a source at `depth`, times kappa alpha'^2.
@@ -97,6 +100,17 @@ double PhotonBeam::multiple(double r) const {
     return gradedQuadrature(0.25 * std::min(r, 1.0), 8, kRange, [&](double depth) {
         return std::exp(-depth) * multipleFromDepth(r, depth);
     });
+}
+
+// Below kNearest the laws at r = 0 hold to every digit, a - b log r and c / r.
+double PhotonBeam::multipleNearAndFar(double r) const {
+    if (r >= kNearest) return multiple(r);
+    const double near = multiple(kNearest), further = multiple(std::sqrt(kNearest));
+    return near + (near - further) * 2 * std::log(r / kNearest) / std::log(kNearest);
+}
+
+double PhotonBeam::singleNearAndFar(double r) const {
+    return r >= kNearest ? single(r) : single(kNearest) * kNearest / r;
 }
 
 double PhotonBeam::multipleSampled(double r) const {

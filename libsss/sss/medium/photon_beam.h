@@ -31,6 +31,8 @@ public:
 private:
     /// Made at the first call: it costs some hundred evaluations of the profile.
     const RadialQuadrature& quadrature() const;
+    double multipleNearAndFar(double r) const;
+    double singleNearAndFar(double r) const;
     double multiple(double r) const;
     double multipleFromDepth(double r, double depth) const;
     double single(double r) const;

@@ -37,16 +37,18 @@ void Profile::reflectanceByTable(std::span<const float> rMm, std::span<float> ou
     }
 }
 
-double Profile::meanOverDisk(double areaMm2) const {
-    const double radius = std::sqrt(areaMm2 / kPi);
-    // For a disk far below the mean free path total - tail would cancel; R_d is flat there, or
-    // r R_d nearly so.
-    if (!singularAtZero() && radius < 1e-3 * scaleMm_) return reflectance(std::sqrt(0.5) * radius);
-    if (singularAtZero() && radius < 1e-5 * scaleMm_) {
-        return 2 * kPi / areaMm2 *
-               gauss16(0, radius, [this](double r) { return r * reflectance(r); });
-    }
-    return (total() - tail(radius)) / areaMm2;
+double Profile::cumulative(double rMm) const {
+    const double inside = total() - tail(rMm);
+    // Where the difference would cancel, r lies below every height and length of the profile, so
+    // that R_d varies there like a power series, with log r or 1/r at most: smooth in r^(1/4).
+    constexpr double kCancels = 0.01;
+    if (std::abs(inside) > kCancels * std::abs(total())) return inside;
+    constexpr double kNothing = 1e-200;  // of the total at most, in what follows
+    if (rMm < kNothing * scaleMm_) return 0;
+    return 8 * kPi * gauss16(0, 1, [&](double root) {
+               const double share = root * root * root, r = share * root * rMm;
+               return share * rMm * (r * reflectance(r));
+           });
 }
 
 }  // namespace sss

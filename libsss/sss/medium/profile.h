@@ -53,7 +53,7 @@ public:
     Profile(const Profile&) = delete;
     Profile& operator=(const Profile&) = delete;
 
-    /// R_d(r) in mm^-2, r >= 0 in mm. +inf at r = 0 where singularAtZero().
+    /// R_d(r) in mm^-2, any finite r >= 0 in mm. +inf at r = 0 where singularAtZero().
     virtual double reflectance(double rMm) const = 0;
     /// Integral of 2 pi r R_d over r in [a, infinity); tail(0) = total().
     virtual double tail(double aMm) const = 0;
@@ -70,9 +70,9 @@ public:
     /// R_d for many radii in single precision, relative error at most 2e-6 (0 where R_d lies below
     /// what single precision holds).
     virtual void reflectance(std::span<const float> rMm, std::span<float> out) const;
-    /// Mean of R_d over the disk of area `areaMm2` about r = 0: what a sample that stands for that
-    /// area contributes to itself, finite also where R_d is not.
-    double meanOverDisk(double areaMm2) const;
+    /// Integral of 2 pi r R_d over r in [0, rMm], finite also where R_d is not: total - tail, but
+    /// by quadrature where that would cancel. 0 below 1e-200 mean free paths.
+    double cumulative(double rMm) const;
 
     double scaleMm() const { return scaleMm_; }
 
@@ -98,8 +98,9 @@ struct ProfileKind {
 /// All profiles, in the order in which they are listed to the user.
 std::span<const ProfileKind> profileTable();
 
-/// The profile called `name` for one channel. Throws Error{BadInput} naming the nearest name, or
-/// the option that the profile lacks.
+/// The profile called `name` for one channel. Throws Error{BadInput} naming the nearest name, the
+/// option that the profile lacks, or a transport mean free path or thickness (mm) that is neither
+/// 0, infinite nor between 1e-50 and 1e50.
 std::unique_ptr<Profile> makeProfile(std::string_view name, const ChannelMedium& medium,
                                      const ProfileOptions& options = {});
 

@@ -20,6 +20,18 @@ using Medium1 = const ChannelMedium&;
 using Options = const ProfileOptions&;
 using Made = std::unique_ptr<Profile>;
 
+/// A length whose powers profiles can compute with.
+bool isUsable(double lengthMm) { return lengthMm >= 1e-50 && lengthMm <= 1e50; }
+
+void checkMeanFreePath(Medium1 medium) {
+    if (medium.sigmaTPrime() == 0 || isUsable(medium.meanFreePathMm())) return;
+    throw Error(ErrorKind::BadInput, "profile",
+                fmt::format("a transport mean free path of {:.3g} mm is beyond what profiles "
+                            "compute with, 1e-50 to 1e50 mm",
+                            medium.meanFreePathMm()),
+                "coefficients are in mm^-1: check their unit");
+}
+
 Made makeDipole(Medium1 medium, Options options) {
     return std::make_unique<Dipole>(medium, options.boundary);
 }
@@ -37,6 +49,12 @@ Made makeMultipole(Medium1 medium, Options options) {
         throw Error(ErrorKind::BadInput, "multipole",
                     "the profile of a slab needs the slab's thickness, above 0 mm",
                     "state the thickness, or take \"dipole\" for a thick object");
+    }
+    if (!isUsable(*options.slabThicknessMm)) {
+        throw Error(ErrorKind::BadInput, "multipole",
+                    fmt::format("a thickness of {:.3g} mm is beyond what profiles compute with, "
+                                "1e-50 to 1e50 mm",
+                                *options.slabThicknessMm));
     }
     return std::make_unique<Multipole>(medium, *options.slabThicknessMm, face, options.boundary);
 }
@@ -82,6 +100,7 @@ std::span<const ProfileKind> profileTable() { return kKinds; }
 
 std::unique_ptr<Profile> makeProfile(std::string_view name, const ChannelMedium& medium,
                                      const ProfileOptions& options) {
+    checkMeanFreePath(medium);
     std::vector<std::string_view> names;
     for (const ProfileKind& kind : kKinds) {
         if (kind.name == name) return kind.make(medium, options);

@@ -2,6 +2,7 @@
 
 #include "sss/medium/grosjean.h"
 #include "sss/medium/half_space.h"
+#include "sss/medium/image_source.h"
 #include "sss/medium/photon_beam.h"
 #include "sss/medium/photon_profile.h"
 
@@ -91,7 +92,9 @@ public:
           ratio_(simulated, asymptoticDecay(unit.reducedAbsorption()) - decay) {}
 
     double operator()(double r) const {
-        return ratio_(r) * (multiple_->reflectance(r) + single_->reflectance(r));
+        const double beam = multiple_->reflectance(r) + single_->reflectance(r);
+        // Far out the ratio may be infinite where the beam is 0.
+        return beam > 0 ? ratio_(r) * beam : 0.0;
     }
 
     double decay;  ///< of the beam, per mean free path
@@ -132,11 +135,12 @@ Tabulated::Tabulated(const ChannelMedium& medium, const ProfileOptions& options)
 double Tabulated::reflectance(double rMm) const {
     if (!(total_ > 0)) return 0;
     if (rMm == 0) return std::numeric_limits<double>::infinity();
-    return correction_ * (*table_)(rMm * sigmaTPrime_) * sigmaTPrime_ * sigmaTPrime_;
+    const double r = reducedRadius(rMm, sigmaTPrime_);
+    return correction_ * (*table_)(r)*sigmaTPrime_ * sigmaTPrime_;
 }
 
 double Tabulated::tail(double aMm) const {
-    return total_ > 0 ? correction_ * quadrature_->tail(aMm * sigmaTPrime_) : 0.0;
+    return total_ > 0 ? correction_ * quadrature_->tail(reducedRadius(aMm, sigmaTPrime_)) : 0.0;
 }
 
 void Tabulated::reflectance(std::span<const float> rMm, std::span<float> out) const {

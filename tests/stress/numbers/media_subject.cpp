@@ -5,6 +5,7 @@
 #include "sss/medium/energy.h"
 #include "sss/medium/half_space.h"
 #include "sss/medium/profile.h"
+#include "sss/medium/single_scatter.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,5 @@
 #include "sss/medium/half_space.h"
+#include "sss/medium/single_scatter.h"
 #include "sss/optics/fresnel.h"
 #include "sss/optics/fresnel_moments.h"
 #include "unit/integrate/volume_experiment.h"

@@ -2,7 +2,7 @@
 
 #include "sss/medium/albedo_inversion.h"
 #include "sss/medium/measured_media.h"
-#include "sss/medium/photon_beam.h"
+#include "sss/medium/single_scatter.h"
 
 #include <gtest/gtest.h>
 
@@ -56,37 +56,6 @@ TEST(HalfSpace, ExactAndContinuousAtTheEnds) {
     const double matched = halfSpaceTotals({0.01, 1, 0, 1}).diffuse;
     EXPECT_NEAR(halfSpaceTotals({0.01, 1, 0, 1 + 1e-7}).diffuse, matched, 1e-4);
     EXPECT_NEAR(halfSpaceTotals({0.01, 1, 0, 1 - 1e-7}).diffuse, matched, 1e-4);
-}
-
-TEST(SingleScattering, AgreesWithMonteCarloFromTheFormulas) {
-    // Exit flux per INCIDENT flux at normal incidence, formulas.md section 7.
-    const auto perIncident = [](const ChannelMedium& medium) {
-        const double entry =
-            (medium.eta - 1) * (medium.eta - 1) / ((medium.eta + 1) * (medium.eta + 1));
-        return (1 - entry) * singleScatterAlbedo(medium, Illumination::Normal);
-    };
-    EXPECT_NEAR(perIncident(kMarbleG), 0.051399, 1e-6);
-    EXPECT_NEAR(perIncident(kSkimmilkG), 0.074280, 1e-6);
-    EXPECT_NEAR(perIncident({0.0046, 20.3826, 0.714, 1.33}), 0.0077298, 2e-6);
-}
-
-TEST(SingleScattering, IsTheIntegralOfTheBeamsSingleProfile) {
-    for (const ChannelMedium& medium :
-         {kMarbleG, ChannelMedium{0.1, 2, 0.6, 1.3}, ChannelMedium{0.1, 2, -0.8, 0.8},
-          ChannelMedium{0.2, 1, 0, 1}}) {
-        const PhotonBeam beam(medium, PhotonBeam::Part::Single, {});
-        const double expected = singleScatterAlbedo(medium, Illumination::Normal);
-        EXPECT_NEAR(beam.total(), expected, 1e-7 * expected);
-    }
-}
-
-TEST(SingleScattering, ClosedFormWithoutBoundary) {
-    // Isotropic, matched: (albedo/2) int mu/(1 + mu) = (albedo/2)(1 - ln 2); diffuse light:
-    // albedo int int mu mu'/(mu + mu') = albedo (2/3)(1 - ln 2).
-    const ChannelMedium medium{0.3, 0.7, 0, 1};
-    EXPECT_NEAR(singleScatterAlbedo(medium, Illumination::Normal), 0.35 * (1 - std::log(2)), 1e-9);
-    EXPECT_NEAR(singleScatterAlbedo(medium, Illumination::Diffuse), 0.7 * 2 / 3 * (1 - std::log(2)),
-                1e-9);
 }
 
 TEST(Energy, DiffusionAndSingleScatteringMatchRadiativeTransfer) {

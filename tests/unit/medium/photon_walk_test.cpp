@@ -2,6 +2,7 @@
 
 #include "sss/base/parallel.h"
 #include "sss/medium/half_space.h"
+#include "sss/medium/single_scatter.h"
 
 #include <gtest/gtest.h>
 

@@ -222,23 +222,6 @@ TEST(Profile, SinglePrecisionBatchAgrees) {
     }
 }
 
-TEST(Profile, MeanOverItsOwnDisk) {
-    const ChannelMedium medium{0.0041, 2.62, 0, 1.5};
-    for (const char* name : {"dipole", "normalized_diffusion"}) {
-        const auto profile = makeProfile(name, medium);
-        for (const double area : {1e-12, 1e-7, 1e-4, 1.0, 1e6}) {
-            const double radius = std::sqrt(area / kPi);
-            double sum = 0;
-            for (int i = 0; i < 200; ++i) {
-                sum += gauss16(radius * i / 200, radius * (i + 1) / 200,
-                               [&](double r) { return 2 * kPi * r * profile->reflectance(r); });
-            }
-            EXPECT_NEAR(profile->meanOverDisk(area), sum / area, 1e-6 * sum / area)
-                << name << " area " << area;
-        }
-    }
-}
-
 TEST(Profile, UnknownNamesAndMissingOptionsAreExplained) {
     const ChannelMedium medium{0.01, 1, 0, 1.3};
     try {
