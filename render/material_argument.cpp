@@ -113,12 +113,9 @@ Medium mediumOfNumbers(const std::string& text, const std::string& model,
         if (has("color") && (has("mfp") || has("dmfp"))) {
             const RadiusKind kind = has("mfp") ? RadiusKind::TransportMfp : RadiusKind::DiffuseMfp;
             const DRgb length = has("mfp") ? values["mfp"] : values["dmfp"];
-            // A slab's color is that of its thick limit, as in a scene file.
-            const std::string inverted = model.starts_with("multipole") ? "dipole" : model;
             for (int c = 0; c < 3; ++c) {
                 const ChannelMedium channel = invertAlbedo(
-                    inverted, {values["color"][c], length[c], kind, medium.g[c], medium.eta},
-                    options);
+                    model, {values["color"][c], length[c], kind, medium.g[c], medium.eta}, options);
                 medium.sigmaA[c] = channel.sigmaA;
                 medium.sigmaS[c] = channel.sigmaS;
             }

@@ -4,6 +4,7 @@
 #include "sss/base/near_name.h"
 #include "sss/medium/half_space.h"
 #include "sss/medium/measured_media.h"
+#include "sss/medium/tabulated.h"
 
 #include <fmt/core.h>
 
@@ -80,6 +81,23 @@ std::vector<double> radiiOf(const ProfileRequest& request, const Medium& medium)
     return radii;
 }
 
+struct SimulatedTotals {
+    DRgb total, error;
+};
+
+/// What the simulations themselves found, if these are simulated profiles.
+std::optional<SimulatedTotals> simulatedTotals(const Profiles& profiles) {
+    SimulatedTotals found;
+    for (int c = 0; c < 3; ++c) {
+        const auto* tabulated =
+            dynamic_cast<const Tabulated*>(profiles[static_cast<std::size_t>(c)].get());
+        if (tabulated == nullptr) return std::nullopt;
+        found.total[c] = tabulated->simulatedTotal();
+        found.error[c] = tabulated->simulatedError();
+    }
+    return found;
+}
+
 void printHead(const ProfileSubject& subject, const Profiles& profiles) {
     const Medium& m = subject.medium;
     std::string head;
@@ -109,10 +127,15 @@ void printHead(const ProfileSubject& subject, const Profiles& profiles) {
         fmt::format("transfer_total {:.4f} {:.4f} {:.4f} (of the half-space by radiative transfer, "
                     "diffuse light)",
                     transfer.x, transfer.y, transfer.z));
+    if (const auto simulated = simulatedTotals(profiles)) {
+        line("simulated_total " + triple(simulated->total));
+        line("total_error " + triple(simulated->error) + " (1 sigma of the simulated total)");
+    }
     if (std::ranges::any_of(profiles, [](const auto& p) { return p->singularAtZero(); }))
         line("R_d grows without bound at r = 0; the cumulative stays finite");
     constexpr double kLarge = std::numeric_limits<double>::infinity();
-    for (const std::string& warning : diffusionWarnings(m, kLarge)) line("note: " + warning);
+    for (const std::string& warning : diffusionWarnings(m, kLarge, subject.options.boundary))
+        line("note: " + warning);
     std::fwrite(head.data(), 1, head.size(), stdout);
 }
 

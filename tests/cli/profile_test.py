@@ -157,6 +157,32 @@ class Columns(ProfileTest):
         self.assertEqual(singular.columns["R_d_R"][0], math.inf)
         self.assertEqual(singular.columns["cumulative_R"][0], 0)
 
+    def test_every_radius_gives_numbers(self):
+        radii = [5e-324, 1e-300, 1e-200, 1e-155, 1e-20, 1e-3, 1, 1e20, 1e160, 1.7e308]
+        for model, medium, more in (
+                ("dipole", "Marble", ()), ("better_dipole", "sigma_a=0,sigma_s=1e-9", ()),
+                ("photon_beam", "Marble", ()), ("photon_beam_single", "sigma_a=1,sigma_s=1e9", ()),
+                ("normalized_diffusion", "sigma_a=1e-300,sigma_s=1", ()),
+                ("multipole", "Marble", ("--thickness", "1e-3"))):
+            printed = self.profile(medium, "--model", model, "--radii",
+                                   ",".join(map(repr, radii)), *more)
+            for c, total in zip("RGB", printed.totals()):
+                value, inside = printed.columns["R_d_" + c], printed.columns["cumulative_" + c]
+                self.assertEqual(value, sorted(value, reverse=True), model)  # NaN is nowhere sorted
+                self.assertEqual(inside, sorted(inside), model)
+                self.assertTrue(value[-1] == 0 and math.isfinite(value[4]), model)
+                self.assertAlmostEqual(inside[-1], total, delta=1e-9 * total, msg=model)
+
+    def test_thin_slabs_are_smooth(self):
+        radii = [10 ** (-7 + i / 20) for i in range(160)]
+        printed = self.profile("sigma_a=0.1,sigma_s=0.9,eta=1.3", "--model",
+                               "multipole_transmittance", "--thickness", "1.0001", "--radii",
+                               ",".join(map(repr, radii)))
+        inside = printed.columns["cumulative_R"]
+        for a, b in zip(inside, inside[1:]):
+            # No faster than the area, which a decreasing profile cannot outrun.
+            self.assertTrue(a <= b <= a * 10 ** 0.1 * (1 + 1e-9), f"{a} {b}")
+
     def test_a_color_is_returned(self):
         for model in ("dipole", "better_dipole", "photon_beam", "normalized_diffusion"):
             printed = self.profile("color=0.9/0.5/0.01,mfp=2,eta=1.4", "--model", model,
@@ -165,6 +191,16 @@ class Columns(ProfileTest):
                 self.assertAlmostEqual(total, color, delta=1e-6)
             self.assertEqual([float(x) for x in printed.head["mean_free_path_mm"].split()],
                              [2.0, 2.0, 2.0])
+        slab = self.profile("color=0.5/0.3/0.01,mfp=1", "--model", "multipole", "--thickness", "2",
+                            "--radii", "1")
+        for total, color in zip(slab.totals(), (0.5, 0.3, 0.01)):
+            self.assertAlmostEqual(total, color, delta=1e-6)
+
+    def test_the_papers_polynomials_have_their_range(self):
+        material = "sigma_a=0.001,sigma_s=1,eta=3"
+        papers = ("--model", "better_dipole", "--boundary", "polynomial", "--radii", "1")
+        self.assertIn("0.5 to 2.4", self.profile(material, *papers).head["note:"])
+        self.assertNotIn("note:", self.profile(material, "--radii", "1").head)
 
     def test_equal_ways_to_name_a_medium(self):
         self.write_scene(materials={"stone": {"type": "translucent", "medium": "Marble"}, "wax": {
@@ -226,6 +262,14 @@ class Refused(ProfileTest):
                      "normalized_diffusion_dmfp")
         self.refused(BAD_INPUT, "above .*returns without absorption", "--profile",
                      "color=0.99,mfp=1,eta=3", "--model", "photon_beam_single")
+        self.refused(BAD_INPUT, "a slab of 2 mm returns without absorption", "--profile",
+                     "color=0.9,mfp=1", "--model", "multipole", "--thickness", "2")
+        self.refused(BAD_INPUT, "above 0.959644.*eta 1.3.*single and multiple", "--profile",
+                     "color=0.97,mfp=1", "--model", "photon_beam")
+        self.refused(BAD_INPUT, "do not reach", "--profile", "color=0.5,mfp=1,eta=3", "--model",
+                     "better_dipole", "--boundary", "polynomial")
+        self.refused(BAD_INPUT, "mean free path of 5e.199 mm", "--profile",
+                     "sigma_a=1e-200,sigma_s=1e-200")
         self.refused(USAGE, "--thickness", "--profile", "Marble", "--model", "multipole")
         self.refused(USAGE, "--thickness", "--profile", "Marble", "--thickness", "1")
 

@@ -41,7 +41,9 @@ BodyOptics::BodyOptics(const TranslucentMaterial& translucent, bool solvesShape)
         if (!translucent.singleScattering) continue;
         const int first = firstLike(c);
         std::optional<double> shown;
-        if (translucent.diffuseColor) shown = (*translucent.diffuseColor)[c];
+        // A slab's color is its own; the factor is that of the half-space.
+        const bool isSlab = translucent.profileOptions.slabThicknessMm.has_value();
+        if (translucent.diffuseColor && !isSlab) shown = (*translucent.diffuseColor)[c];
         if (first < c && (!shown || *shown == (*translucent.diffuseColor)[first])) {
             multipleScale[c] = multipleScale[first];
             continue;

@@ -17,8 +17,12 @@ ChannelMedium mediumAt(double x, double g, double eta) {
     return {1 / (1 + std::exp(-x)), 1 / (1 + std::exp(x)) / (1 - g), g, eta};
 }
 
+/// Profiles whose light stays on its side of the medium: their totals depend on no length.
+bool isOfHalfSpace(std::string_view profile) { return !profile.starts_with("multipole"); }
+
 double totalOf(std::string_view profile, const ChannelMedium& medium,
                const ProfileOptions& options) {
+    if (!isOfHalfSpace(profile)) return makeProfile("multipole", medium, options)->total();
     if (profile == "tabulated") {
         const HalfSpaceTotals totals = halfSpaceTotals(medium);
         return options.tabulatedIllumination == Illumination::Normal ? totals.normal
@@ -51,6 +55,28 @@ double decreasingRoot(double lo, double hi, double atLo, double atHi, const Func
     return 0.5 * (lo + hi);
 }
 
+/// 1 - alpha' at which `total`, a function of the logit of 1 - alpha' that starts at `most`, is the
+/// color.
+template <typename Total>
+double absorptionFor(double color, double most, const Total& total) {
+    if (color == 0) return 1;
+    if (color >= most) return 0;
+    constexpr double kRange = 80;  // 1 - alpha' from 1e-35 to 1 - 1e-35
+    // Logarithms of both, so that false position sees a function that is nearly straight.
+    const auto excess = [&](double x) { return std::log(total(x) / color); };
+    const double x = decreasingRoot(-kRange, kRange, std::log(most / color), -100, excess);
+    return 1 / (1 + std::exp(-x));
+}
+
+void checkColor(double color) {
+    if (color >= 0 && color <= 1) return;
+    throw Error(ErrorKind::BadInput, "albedo inversion",
+                fmt::format("the diffuse color {} is not in [0, 1]", color));
+}
+
+/// What a color may exceed by rounding.
+constexpr double kRounding = 1e-12;
+
 ChannelMedium scaled(double reducedAbsorption, const DiffuseLook& look) {
     const double transport = reducedAbsorption;  // sigma_a at sigma'_t = 1
     const double scattering = (1 - reducedAbsorption) / (1 - look.g);
@@ -60,37 +86,61 @@ ChannelMedium scaled(double reducedAbsorption, const DiffuseLook& look) {
     return {transport * sigmaTPrime, scattering * sigmaTPrime, look.g, look.eta};
 }
 
+/// 1 - alpha' of a slab of the options' thickness, whose total depends on the radius asked for.
+double slabAbsorption(std::string_view profile, const DiffuseLook& look,
+                      const ProfileOptions& options) {
+    // The limit without absorption; by diffuse mean free path that of dense, clear media.
+    constexpr double kClear = 1e-30;
+    const auto totalAt = [&](double absorption) {
+        return totalOf(profile, scaled(absorption, look), options);
+    };
+    const double most = totalAt(look.radiusKind == RadiusKind::DiffuseMfp ? kClear : 0.0);
+    if (look.color > most + kRounding) {
+        throw Error(ErrorKind::BadInput, "albedo inversion",
+                    fmt::format("the diffuse color {} is above {:.6g}, which a slab of {} mm "
+                                "returns without absorption: the other light passes through it",
+                                look.color, most, *options.slabThicknessMm),
+                    "take a darker color, a thicker slab or a shorter mean free path");
+    }
+    return absorptionFor(look.color, most,
+                         [&](double x) { return totalAt(1 / (1 + std::exp(-x))); });
+}
+
 }  // namespace
 
 double invertReducedAbsorption(std::string_view profile, double color, double g, double eta,
                                const ProfileOptions& options) {
-    if (!(color >= 0 && color <= 1)) {
-        throw Error(ErrorKind::BadInput, "albedo inversion",
-                    fmt::format("the diffuse color {} is not in [0, 1]", color));
-    }
+    checkColor(color);
     const double most = totalOf(profile, {0, 1 / (1 - g), g, eta}, options);
-    if (color > most + 1e-12) {
+    if (!(most > 0)) {
+        throw Error(ErrorKind::BadInput, "albedo inversion",
+                    fmt::format("the profile \"{}\" returns {:.6g} without absorption at eta {}: "
+                                "the polynomials of its boundary do not reach that far",
+                                profile, most, eta),
+                    "take the exact boundary");
+    }
+    if (color > most + kRounding) {
+        const bool isBeam = profile.starts_with("photon_beam");
         throw Error(ErrorKind::BadInput, "albedo inversion",
                     fmt::format("the diffuse color {} is above {:.6g}, which the profile \"{}\" "
-                                "returns without absorption",
-                                color, most, profile),
+                                "returns without absorption at eta {} and g {}{}",
+                                color, most, profile, eta, g,
+                                isBeam ? ": it is a part of the light, and single and multiple "
+                                         "scattering return the color together only"
+                                       : ""),
                     "take a darker color or another profile");
     }
-    if (color == 0) return 1;
-    if (color >= most) return 0;
-    constexpr double kRange = 80;  // 1 - alpha' from 1e-35 to 1 - 1e-35
-    const auto excess = [&](double x) {
-        // Both logarithms, so that false position sees a function that is nearly straight.
-        return std::log(totalOf(profile, mediumAt(x, g, eta), options) / color);
-    };
-    const double x = decreasingRoot(-kRange, kRange, std::log(most / color), -100, excess);
-    return 1 / (1 + std::exp(-x));
+    return absorptionFor(color, most,
+                         [&](double x) { return totalOf(profile, mediumAt(x, g, eta), options); });
 }
 
 ChannelMedium invertAlbedo(std::string_view profile, const DiffuseLook& look,
                            const ProfileOptions& options) {
+    checkColor(look.color);
     const double absorption =
-        invertReducedAbsorption(profile, look.color, look.g, look.eta, options);
+        isOfHalfSpace(profile)
+            ? invertReducedAbsorption(profile, look.color, look.g, look.eta, options)
+            : slabAbsorption(profile, look, options);
     if (absorption == 0 && look.radiusKind == RadiusKind::DiffuseMfp) {
         throw Error(ErrorKind::BadInput, "albedo inversion",
                     fmt::format("a medium of diffuse color {} does not absorb, so that its diffuse "

@@ -23,14 +23,17 @@ struct DiffuseLook {
 
 /// 1 - alpha' at which the total of the profile called `profile` is `color`, by bracketing in
 /// log((1 - alpha')/alpha') to 1e-12 of the color; 1 for color 0, 0 where color is the total
-/// without absorption. Profiles "tabulated" and "normalized_diffusion..." are inverted through the
-/// radiative-transfer total and the classic dipole's. Throws Error{BadInput} if the color is
-/// outside [0, 1] or above what the profile reaches without absorption.
+/// without absorption. "normalized_diffusion..." is inverted through the classic dipole's total,
+/// "multipole..." as a slab of options.slabThicknessMm and a transport mean free path near 1 mm,
+/// lit face. Throws Error{BadInput} if the color is outside [0, 1] or above what the profile
+/// reaches without absorption. That is 1 but for a slab, which lets light through, and for
+/// "photon_beam", which leaves light scattered once to others: 0.96 at eta = 1.3, 0.97 at 1.5.
 double invertReducedAbsorption(std::string_view profile, double color, double g, double eta,
                                const ProfileOptions& options = {});
 
-/// Coefficients in mm^-1 for which the profile returns the color, with the radius asked for. Throws
-/// as above, and for color 1 by diffuse mean free path (it would have to be infinite).
+/// Coefficients in mm^-1 for which the profile returns the color, with the radius asked for; for a
+/// slab those for which the lit face of its own thickness does. Throws as above, and for color 1 by
+/// diffuse mean free path (it would have to be infinite).
 ChannelMedium invertAlbedo(std::string_view profile, const DiffuseLook& look,
                            const ProfileOptions& options = {});
 

@@ -12,6 +12,9 @@ constexpr std::array kChannelNames{"red", "green", "blue"};
 constexpr double kLeastReducedAlbedo = 0.8;
 /// Objects thinner than this many mean free paths let light through before it is diffuse.
 constexpr double kLeastMeanFreePaths = 10;
+/// Indices of refraction for which the boundary's polynomials were made, and where they are within
+/// 0.01 of the totals.
+constexpr double kLeastFittedEta = 0.5, kMostFittedEta = 2.4;
 
 std::string letters(std::string_view name) {
     std::string out;
@@ -56,7 +59,8 @@ Medium toMedium(const MeasuredMedium& measured) {
     return medium;
 }
 
-std::vector<std::string> diffusionWarnings(const Medium& medium, double objectSizeMm) {
+std::vector<std::string> diffusionWarnings(const Medium& medium, double objectSizeMm,
+                                           BoundaryModel boundary) {
     std::vector<std::string> sentences;
     const auto scatters = [&](int c) { return medium.channel(c).sigmaSPrime() > 0; };
     const std::string clear = channelsThat([&](int c) { return !scatters(c); });
@@ -95,6 +99,13 @@ std::vector<std::string> diffusionWarnings(const Medium& medium, double objectSi
             "{:.0f}): light crosses it before it is diffuse, and a profile of the half-space does "
             "not see the far side",
             thin, objectSizeMm, objectSizeMm / longest, longest, kLeastMeanFreePaths));
+    }
+    if (boundary == BoundaryModel::Polynomial &&
+        (medium.eta < kLeastFittedEta || medium.eta > kMostFittedEta)) {
+        sentences.push_back(fmt::format(
+            "the polynomials of the boundary were fitted to indices of refraction from {} to {} "
+            "and mean nothing at {}: totals may even be negative; take the exact boundary",
+            kLeastFittedEta, kMostFittedEta, medium.eta));
     }
     return sentences;
 }

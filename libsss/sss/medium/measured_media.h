@@ -1,5 +1,5 @@
 #pragma once
-#include "sss/medium/medium.h"
+#include "sss/medium/profile.h"
 
 #include <array>
 #include <span>
@@ -32,7 +32,8 @@ const MeasuredMedium* findMeasuredMedium(std::string_view name);
 Medium toMedium(const MeasuredMedium& measured);
 
 /// Why diffusion is out of its reach for this medium in an object of this size (its shortest
-/// extent, mm), one sentence a reason; empty if it is not.
-std::vector<std::string> diffusionWarnings(const Medium& medium, double objectSizeMm);
+/// extent, mm) with this boundary, one sentence a reason; empty if it is not.
+std::vector<std::string> diffusionWarnings(const Medium& medium, double objectSizeMm,
+                                           BoundaryModel boundary = BoundaryModel::Exact);
 
 }  // namespace sss

@@ -33,19 +33,6 @@ double asymptoticDecay(double reducedAbsorption) {
 /// costs 1/(1 - g).
 constexpr double kMostForward = 0.98;
 
-/// By how much that changes the total, by adding-doubling: below 0.1 % where 1 - alpha' < 0.1, up
-/// to 1 % at low albedo.
-double forwardCorrection(const ChannelMedium& medium, const PhotonProfileKey& key) {
-    if (medium.g <= kMostForward) return 1;
-    const double absorption = key.reducedAbsorption;
-    const auto totalAt = [&](double g) {
-        const HalfSpaceTotals totals =
-            halfSpaceTotals({absorption, (1 - absorption) / (1 - g), g, key.eta});
-        return key.illumination == Illumination::Normal ? totals.normal : totals.diffuse;
-    };
-    return totalAt(medium.g) / totalAt(key.g);
-}
-
 /// exp of the log ratios between rings, by Catmull-Rom cubics in log r; constant below the first
 /// ring, and with the true decay instead of the beam's beyond the last.
 class RatioCurve {
@@ -118,10 +105,11 @@ Tabulated::Tabulated(const ChannelMedium& medium, const ProfileOptions& options)
     const PhotonProfile simulated = loadOrSimulatePhotonProfile(
         key, options.tabulatedCacheFolder.empty() ? defaultProfileCacheFolder()
                                                   : options.tabulatedCacheFolder);
-    total_ = simulated.total;
-    totalError_ = simulated.totalError;
-    if (!(total_ > 0)) return;
-    total_ *= forwardCorrection(medium, key);
+    simulatedTotal_ = simulated.total;
+    simulatedError_ = simulated.totalError;
+    if (!(simulatedTotal_ > 0)) return;
+    const HalfSpaceTotals totals = halfSpaceTotals(medium);
+    total_ = key.illumination == Illumination::Normal ? totals.normal : totals.diffuse;
 
     const double absorption = key.reducedAbsorption;
     const ChannelMedium unit{absorption, (1 - absorption) / (1 - key.g), key.g, key.eta};

@@ -16,9 +16,9 @@ namespace sss {
 /// to 2 % above that of light along the normal (marble 0.8048 against 0.7994).
 /// Illumination::Normal is the searchlight problem of the literature.
 ///
-/// g > 0.98 is simulated as g = 0.98 with the same sigma'_s (their totals differ by less than 0.1 %
-/// where alpha' > 0.9) and the total is set right by adding-doubling, so that no medium takes more
-/// than a minute of one core.
+/// The total is not the simulation's but that of adding-doubling, which has no noise
+/// (half_space.h); the simulation gives the shape. g > 0.98 is simulated as g = 0.98 with the same
+/// sigma'_s, so that no medium takes more than a minute of one core.
 class Tabulated final : public Profile {
 public:
     Tabulated(const ChannelMedium& medium, const ProfileOptions& options);
@@ -27,12 +27,13 @@ public:
     double total() const override { return total_; }
     bool singularAtZero() const override { return total_ > 0; }
     void reflectance(std::span<const float> rMm, std::span<float> out) const override;
-    /// 1 sigma of the total.
-    double totalError() const { return totalError_; }
+    /// The simulation's own total for min(g, 0.98), and its 1 sigma.
+    double simulatedTotal() const { return simulatedTotal_; }
+    double simulatedError() const { return simulatedError_; }
 
 private:
     double sigmaTPrime_;
-    double total_ = 0, totalError_ = 0;
+    double total_ = 0, simulatedTotal_ = 0, simulatedError_ = 0;
     double correction_ = 0;             ///< makes the profile's integral the total
     std::optional<RadialTable> table_;  // in transport mean free paths
     std::optional<RadialQuadrature> quadrature_;

@@ -59,10 +59,14 @@ void readReducedScattering(TranslucentMaterial& out, const Node& material) {
     out.medium.eta = etaOr(material, kDefaultEta);
 }
 
-/// The profile that a colour is inverted by: the material's; a slab's colour is that of its thick
-/// limit, the dipole.
+/// The profile that a colour is inverted by: the material's. The photon beam is only a part of the
+/// light; where single scattering is added to come to the transfer total, that total is inverted,
+/// which is "tabulated"'s.
 std::string_view invertedProfile(const TranslucentMaterial& material) {
-    return material.profileOptions.slabThicknessMm ? "dipole" : std::string_view(material.profile);
+    const bool isShared =
+        material.singleScattering && material.energy == EnergyConvention::Consistent;
+    if (material.profile == "photon_beam" && isShared) return "tabulated";
+    return material.profile;
 }
 
 /// Runs an inversion; what it refuses is refused at the colour.

@@ -131,7 +131,8 @@ void World::describeBody(const Body& body, Reporter& reporter) const {
                              "free path {:.4g} {:.4g} {:.4g} mm",
                              body.name, body.mesh.faceCount(), size.x, size.y, size.z,
                              body.mesh.area(), mfp.x, mfp.y, mfp.z));
-    for (const std::string& sentence : diffusionWarnings(translucent.medium, minComponent(size)))
+    for (const std::string& sentence : diffusionWarnings(translucent.medium, minComponent(size),
+                                                         translucent.profileOptions.boundary))
         reporter.warn("medium", body.name + ": " + sentence);
     if (!body.closed)
         reporter.warn("mesh",

@@ -4,8 +4,11 @@
 #include "sss/medium/half_space.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cmath>
+#include <filesystem>
+#include <string>
 
 using namespace sss;
 
@@ -26,31 +29,24 @@ TEST(AlbedoInversion, TableOfTheGeometryCases) {
                 1e-12);
 }
 
+double radiusOf(const ChannelMedium& m, RadiusKind kind) {
+    if (kind == RadiusKind::VolumeMfp) return 1 / m.sigmaT();
+    if (kind == RadiusKind::TransportMfp) return m.meanFreePathMm();
+    return 1 / std::sqrt(3 * m.sigmaA * m.sigmaTPrime());
+}
+
 TEST(AlbedoInversion, RoundTripForEveryProfileAndRadius) {
-    for (const char* name :
-         {"dipole", "better_dipole", "normalized_diffusion", "normalized_diffusion_perpendicular",
-          "normalized_diffusion_dmfp", "multipole"}) {
+    for (const char* name : {"dipole", "better_dipole", "normalized_diffusion",
+                             "normalized_diffusion_perpendicular", "normalized_diffusion_dmfp"}) {
         for (const double eta : {0.8, 1.0, 1.3, 2.0}) {
             for (const double g : {-0.5, 0.0, 0.9}) {
                 for (const double color : {0.0, 1e-6, 0.01, 0.3, 0.8, 0.99, 0.999}) {
                     for (const RadiusKind kind : {RadiusKind::VolumeMfp, RadiusKind::TransportMfp,
                                                   RadiusKind::DiffuseMfp}) {
-                        ProfileOptions options;
-                        // The slab's thickness in the inversion's units is fixed: only the
-                        // transport mean free path of 1 mm keeps it.
-                        options.slabThicknessMm = 1e6;
-                        if (std::string(name) == "multipole" && kind != RadiusKind::TransportMfp) {
-                            continue;
-                        }
-                        const ChannelMedium m =
-                            invertAlbedo(name, {color, 1.0, kind, g, eta}, options);
-                        EXPECT_NEAR(makeProfile(name, m, options)->total(), color, 1e-6)
+                        const ChannelMedium m = invertAlbedo(name, {color, 1.0, kind, g, eta});
+                        EXPECT_NEAR(makeProfile(name, m)->total(), color, 1e-6)
                             << name << " eta " << eta << " g " << g << " color " << color;
-                        const double radius = kind == RadiusKind::VolumeMfp ? 1 / m.sigmaT()
-                                              : kind == RadiusKind::TransportMfp
-                                                  ? m.meanFreePathMm()
-                                                  : 1 / std::sqrt(3 * m.sigmaA * m.sigmaTPrime());
-                        EXPECT_NEAR(radius, 1.0, 1e-12);
+                        EXPECT_NEAR(radiusOf(m, kind), 1.0, 1e-12);
                     }
                 }
             }
@@ -58,15 +54,79 @@ TEST(AlbedoInversion, RoundTripForEveryProfileAndRadius) {
     }
 }
 
-TEST(AlbedoInversion, BeamAndSimulatedProfiles) {
-    for (const double color : {1e-6, 0.6, 0.9}) {
-        const ChannelMedium beam = invertAlbedo("photon_beam", {color, 2.0});
-        EXPECT_NEAR(makeProfile("photon_beam", beam)->total(), color, 1e-6);
+/// What an inversion refuses a color with.
+std::string refusal(std::string_view profile, const DiffuseLook& look,
+                    const ProfileOptions& options = {}) {
+    try {
+        invertAlbedo(profile, look, options);
+    } catch (const Error& error) {
+        return error.what();
     }
-    for (const double color : {0.01, 0.6, 0.999}) {
-        const ChannelMedium exact = invertAlbedo("tabulated", {color, 2.0});
-        EXPECT_NEAR(halfSpaceTotals(exact).diffuse, color, 1e-6);
+    return "not refused";
+}
+
+TEST(AlbedoInversion, SlabsOfTheirOwnThickness) {
+    ProfileOptions options;
+    for (const double thickness : {0.5, 2.0, 1e3}) {
+        options.slabThicknessMm = thickness;
+        for (const RadiusKind kind :
+             {RadiusKind::VolumeMfp, RadiusKind::TransportMfp, RadiusKind::DiffuseMfp}) {
+            for (const double g : {0.0, 0.8}) {
+                const auto clearSlab = [&](double sigmaS) {
+                    return makeProfile("multipole", {0, sigmaS, g, 1.3}, options)->total();
+                };
+                for (const double color : {0.0, 1e-6, 0.01, 0.1, 0.5, 0.9, 0.99}) {
+                    const DiffuseLook look{color, 1.0, kind, g, 1.3};
+                    // Without absorption less comes back than that: sigma'_t is then 1, or 1 - g.
+                    const double most =
+                        clearSlab(kind == RadiusKind::VolumeMfp ? 1.0 : 1 / (1 - g));
+                    if (kind != RadiusKind::DiffuseMfp && color > most) {
+                        EXPECT_NE(refusal("multipole", look, options), "not refused");
+                        continue;
+                    }
+                    const ChannelMedium m = invertAlbedo("multipole", look, options);
+                    EXPECT_NEAR(makeProfile("multipole", m, options)->total(), color, 1e-6)
+                        << thickness << " mm, color " << color << " g " << g;
+                    EXPECT_NEAR(radiusOf(m, kind), 1.0, 1e-12);
+                    EXPECT_EQ(invertAlbedo("multipole_transmittance", look, options), m);
+                }
+            }
+        }
     }
+    options.slabThicknessMm = 2;
+    const double most = makeProfile("multipole", {0, 1, 0, 1.3}, options)->total();
+    EXPECT_EQ(invertAlbedo("multipole", {most, 1.0}, options).sigmaA, 0.0);
+    EXPECT_NE(refusal("multipole", {most + 1e-6, 1.0}, options).find("a slab of 2 mm"),
+              std::string::npos);
+}
+
+// As much as it returns without absorption, down to nothing; the rest of the light is single
+// scattering's.
+TEST(AlbedoInversion, PhotonBeamUpToItsLimit) {
+    for (const double eta : {0.75, 1.3}) {
+        const double most = makeProfile("photon_beam", {0, 1, 0, eta})->total();
+        EXPECT_TRUE(most > 0.93 && most < 0.99) << most;
+        for (const double color : {1e-6, most - 1e-3, most - 1e-6, most}) {
+            const ChannelMedium beam =
+                invertAlbedo("photon_beam", {color, 2.0, RadiusKind::TransportMfp, 0, eta});
+            EXPECT_NEAR(makeProfile("photon_beam", beam)->total(), color, 1e-6);
+        }
+    }
+    const std::string words = refusal("photon_beam", {0.97, 2.0});
+    EXPECT_NE(words.find("above 0.959644"), std::string::npos) << words;
+    EXPECT_NE(words.find("single and multiple scattering"), std::string::npos) << words;
+}
+
+TEST(AlbedoInversion, SimulatedProfileReturnsTheColorItself) {
+    ProfileOptions options;
+    options.tabulatedError = 0.1;  // quick: the total does not depend on it
+    options.tabulatedCacheFolder =
+        std::filesystem::temp_directory_path() / ("sss_inversion_" + std::to_string(::getpid()));
+    for (const double color : {0.0, 0.5, 0.999}) {
+        const ChannelMedium m = invertAlbedo("tabulated", {color, 2.0}, options);
+        EXPECT_NEAR(makeProfile("tabulated", m, options)->total(), color, 1e-6);
+    }
+    std::filesystem::remove_all(options.tabulatedCacheFolder);
 }
 
 TEST(AlbedoInversion, EndsAndImpossibleColors) {
@@ -76,7 +136,10 @@ TEST(AlbedoInversion, EndsAndImpossibleColors) {
     EXPECT_THROW(invertAlbedo("dipole", {1.0, 2.0, RadiusKind::DiffuseMfp}), Error);
     EXPECT_THROW(invertReducedAbsorption("dipole", 1.5, 0, 1.3), Error);
     EXPECT_THROW(invertReducedAbsorption("dipole", std::nan(""), 0, 1.3), Error);
-    EXPECT_THROW(invertReducedAbsorption("photon_beam", 0.9999, 0, 1.3), Error);
+    ProfileOptions papers;
+    papers.boundary = BoundaryModel::Polynomial;
+    const DiffuseLook beyond{0.5, 1, RadiusKind::TransportMfp, 0, 3};
+    EXPECT_NE(refusal("better_dipole", beyond, papers).find("do not reach"), std::string::npos);
 }
 
 TEST(AlbedoInversion, OpenPbrAndPrincipledNames) {

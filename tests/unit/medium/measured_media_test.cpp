@@ -95,6 +95,13 @@ TEST(MeasuredMedia, WarningsNameTheReason) {
     const auto clear = diffusionWarnings(toMedium(*findMeasuredMedium("Merlot")), 1000);
     EXPECT_NE(clear.at(0).find("green, blue"), std::string::npos);
     EXPECT_NE(clear.at(0).find("sigma_s = 0"), std::string::npos);
+    Medium diamond = marble;
+    diamond.eta = 3;
+    EXPECT_TRUE(diffusionWarnings(diamond, 50).empty());
+    const auto papers = diffusionWarnings(diamond, 50, BoundaryModel::Polynomial);
+    ASSERT_EQ(papers.size(), 1u);
+    EXPECT_NE(papers[0].find("0.5 to 2.4"), std::string::npos);
+    EXPECT_TRUE(diffusionWarnings(marble, 50, BoundaryModel::Polynomial).empty());
 }
 
 }  // namespace

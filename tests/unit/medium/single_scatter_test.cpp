@@ -119,11 +119,9 @@ private:
 
 TEST(SingleScattering, SharpPeaksInOtherCoordinates) {
     for (const ChannelMedium& medium :
-         {ChannelMedium{0.1, 1, -0.3, 1}, ChannelMedium{0.1, 1, -0.95, 1.3},
-          ChannelMedium{0.1, 1, -0.99, 1.5}, ChannelMedium{0, 1, -0.99, 0.8},
-          ChannelMedium{0.1, 1, -0.999, 1.3}, ChannelMedium{0.1, 1, 0.95, 1.3},
-          ChannelMedium{0, 1, 0.99, 1}, ChannelMedium{0.1, 1, 0.99, 1.5},
-          ChannelMedium{0.1, 1, 0.999, 1.3}, ChannelMedium{0.1, 1, 0.999, 0.75}}) {
+         {ChannelMedium{0.1, 1, -0.95, 1.3}, ChannelMedium{0, 1, -0.99, 0.8},
+          ChannelMedium{0.1, 1, -0.999, 1.5}, ChannelMedium{0.1, 1, 0.95, 1},
+          ChannelMedium{0.1, 1, 0.99, 1.5}, ChannelMedium{0.1, 1, 0.999, 0.75}}) {
         const double expected = AboutTheRetroDirection(medium).diffuse();
         EXPECT_NEAR(singleScatterAlbedo(medium, Illumination::Diffuse), expected, 1e-6 * expected)
             << "g " << medium.g << " eta " << medium.eta;

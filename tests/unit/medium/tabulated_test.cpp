@@ -32,14 +32,16 @@ protected:
     ProfileOptions options_;
 };
 
-TEST_F(TabulatedTest, TotalIsTheTransferTotalWithinItsError) {
+TEST_F(TabulatedTest, TotalIsTheTransferTotalAndTheSimulationAgrees) {
     for (const Illumination illumination : {Illumination::Normal, Illumination::Diffuse}) {
         options_.tabulatedIllumination = illumination;
         const Tabulated profile(kMedium, options_);
         const HalfSpaceTotals totals = halfSpaceTotals(kMedium);
         const double truth = illumination == Illumination::Normal ? totals.normal : totals.diffuse;
-        EXPECT_NEAR(profile.total(), truth, 3 * profile.totalError());
-        EXPECT_LE(profile.totalError(), 0.02 * profile.total());
+        EXPECT_EQ(profile.total(), truth);
+        EXPECT_NEAR(profile.simulatedTotal(), truth, 4 * profile.simulatedError());
+        EXPECT_LE(profile.simulatedError(), 0.02 * truth);
+        EXPECT_GT(profile.simulatedError(), 0);
         EXPECT_NEAR(profile.tail(0), profile.total(), 1e-9);
     }
 }

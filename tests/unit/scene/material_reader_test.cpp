@@ -1,3 +1,5 @@
+#include "sss/base/error.h"
+#include "sss/medium/half_space.h"
 #include "sss/medium/measured_media.h"
 #include "sss/scene/material_override.h"
 #include "sss/scene/metal_table.h"
@@ -47,14 +49,36 @@ TEST(MaterialReader, FindsTheMediumOfAColourAndAMeanFreePath) {
     }
 }
 
-TEST(MaterialReader, TakesTheColourOfASlabFromItsThickLimit) {
-    const std::string look = R"("type": "translucent", "diffuseColor": 0.7, "meanFreePathMm": 2)";
-    const Scene slab = read(
-        {.materials = "\"milk\": {" + look + R"(, "profile": "multipole", "slabThicknessMm": 3})"});
-    const Scene thick = read({.materials = "\"milk\": {" + look + "}"});
-    EXPECT_EQ(translucent(slab).profile, "multipole");
-    EXPECT_EQ(translucent(slab).profileOptions.slabThicknessMm, 3.0);
-    EXPECT_EQ(translucent(slab).medium, translucent(thick).medium);
+TEST(MaterialReader, TakesTheColourOfASlabForItsOwnThickness) {
+    const std::string look = R"("type": "translucent", "meanFreePathMm": 2, "slabThicknessMm": 3)";
+    const auto sheet = [&](const std::string& more) {
+        return read({.materials = "\"milk\": {" + look + ", " + more + "}"});
+    };
+    const std::string colour = R"("diffuseColor": 0.3, "profile": )";
+    const Scene lit = sheet(colour + R"("multipole")");
+    const TranslucentMaterial& milk = translucent(lit);
+    EXPECT_EQ(milk.profileOptions.slabThicknessMm, 3.0);
+    const auto profile = makeProfile("multipole", milk.medium.channel(0), milk.profileOptions);
+    EXPECT_NEAR(profile->total(), 0.3, 1e-6);
+    EXPECT_EQ(translucent(sheet(colour + R"("multipole_transmittance")")).medium, milk.medium);
+    // More than it can return, with the rest passing through.
+    try {
+        sheet(R"("diffuseColor": 0.7, "profile": "multipole")");
+        ADD_FAILURE();
+    } catch (const Error& error) {
+        EXPECT_NE(std::string(error.what()).find("a slab of 3 mm"), std::string::npos);
+    }
+}
+
+// The beam itself returns 0.96 at most: with single scattering every colour can be had.
+TEST(MaterialReader, TakesTheColourOfAPhotonBeamWithSingleScattering) {
+    const std::string look = R"("milk": {"type": "translucent", "diffuseColor": 0.999,
+        "meanFreePathMm": 2, "profile": "photon_beam")";
+    const Scene scene = read({.materials = look + "}"});
+    const ChannelMedium medium = translucent(scene).medium.channel(0);
+    EXPECT_NEAR(halfSpaceTotals(medium).diffuse, 0.999, 1e-6);
+    EXPECT_THROW(read({.materials = look + R"(, "singleScattering": false})"}), Error);
+    EXPECT_THROW(read({.materials = look + R"(, "energy": "jensen"})"}), Error);
 }
 
 TEST(MaterialReader, ReadsTheNamesOfOpenPbrInSceneUnits) {
