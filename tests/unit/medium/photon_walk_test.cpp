@@ -62,6 +62,31 @@ TEST(PhotonWalk, HFunctionAlbedos) {
     const ChannelMedium bright{0.01, 0.99, 0, 1};
     EXPECT_WITHIN_3_SIGMA(run(problemOf(bright, Illumination::Normal), 500).reflected,
                           0.7527207171603);
+    EXPECT_WITHIN_3_SIGMA(run(problemOf(bright, Illumination::Diffuse), 500).reflected,
+                          0.794563652902);
+    const PhotonTally brightest =
+        run(problemOf({0.0001, 0.9999, 0, 1}, Illumination::Diffuse), 100);
+    EXPECT_WITHIN_3_SIGMA(brightest.reflected, 0.977186969447);
+    EXPECT_LT(brightest.reflected.standardError(), 0.003);
+}
+
+// An independent simulation of media far from diffusion's reach, printed to four digits.
+TEST(PhotonWalk, DarkMeasuredMedia) {
+    struct Row {
+        ChannelMedium medium;
+        double normal, diffuse, digit;
+    };
+    for (const Row& row : {Row{{0.48, 1.01, 0, 1.3}, 0.1155, 0.1246, 1e-4},       // Skin1, blue
+                           Row{{0.97, 0.07, 0, 1.3}, 0.00539, 0.00592, 1e-5}}) {  // Ketchup, green
+        const auto check = [&](Illumination illumination, double expected) {
+            const BatchMean reflected = run(problemOf(row.medium, illumination), 2000).reflected;
+            EXPECT_NEAR(reflected.mean(), expected,
+                        3 * reflected.standardError() + 0.5 * row.digit);
+            EXPECT_LT(reflected.standardError(), 0.012 * expected);
+        };
+        check(Illumination::Normal, row.normal);
+        check(Illumination::Diffuse, row.diffuse);
+    }
 }
 
 TEST(PhotonWalk, AgreesWithAddingDoublingAndTheSingleScatteringFormula) {

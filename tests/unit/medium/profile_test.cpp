@@ -78,7 +78,8 @@ TEST(Profile, FiniteNonNegativeDecreasingAndItsIntegralIsTheTotal) {
         RandomMedia media(11);
         for (int i = 0; i < subject.media && !HasFailure(); ++i) {
             const ChannelMedium medium = media.next();
-            const double thickness = media.between(0.3, 8) * medium.meanFreePathMm();
+            // From a thousandth of a mean free path.
+            const double thickness = std::pow(10.0, media.between(-3, 1)) * medium.meanFreePathMm();
             const auto profile = make(subject.name, medium, thickness);
             const std::string where = subject.name + ": " + describe(medium);
             const double total = profile->total();
@@ -159,6 +160,33 @@ TEST(Profile, ContinuousThroughMatchedIndicesAndVanishingAbsorption) {
             ChannelMedium nearly = clear;
             nearly.sigmaA = 1e-16;
             EXPECT_NEAR(at(nearly), none, 1e-5 * none) << subject.name << " r " << r;
+        }
+    }
+}
+
+// The same for random media, at the radii where they vary.
+TEST(Profile, ContinuousForRandomMedia) {
+    for (const Subject& subject : subjects()) {
+        RandomMedia media(19);
+        for (int i = 0; i < 100; ++i) {
+            ChannelMedium medium = media.next();
+            const double r = std::pow(10.0, media.between(-3, 1)) * medium.meanFreePathMm();
+            const auto at = [&](const ChannelMedium& m) {
+                return make(subject.name, m, 3 * medium.meanFreePathMm())->reflectance(r);
+            };
+            medium.eta = 1;
+            ChannelMedium near = medium;
+            near.eta = 1 + 1e-12;
+            const double matched = at(medium);
+            EXPECT_NEAR(at(near), matched, 1e-6 * matched + 1e-290)
+                << subject.name << ": " << describe(medium) << " r " << r;
+            if (subject.name == "normalized_diffusion_dmfp" || medium.sigmaS == 0) continue;
+            medium.sigmaA = 0;
+            near = medium;
+            near.sigmaA = 1e-16 * medium.sigmaTPrime();
+            const double clear = at(medium);
+            EXPECT_NEAR(at(near), clear, 1e-6 * clear)
+                << subject.name << ": " << describe(medium) << " r " << r;
         }
     }
 }
