@@ -6,7 +6,9 @@
 #include "sss/optics/fresnel_moments.h"
 #include "unit/integrate/pass_maker.h"
 
-#include <array>
+#include <cmath>
+#include <memory>
+#include <variant>
 
 namespace sss {
 namespace {
@@ -28,34 +30,31 @@ Medium threeMedia() {
 
 class PlaneUnderAnEvenSky {
 public:
-    PlaneUnderAnEvenSky(const char* profile, EnergyConvention energy) {
+    PlaneUnderAnEvenSky() {
         TranslucentMaterial material;
         material.medium = threeMedia();
-        material.profile = profile;
-        material.energy = energy;
         maker_.object(BoxShape{{14, 5, 14}}, maker_.material(material));
         maker_.light(EnvironmentLight{Rgb(1), {}, 0});
         maker_.scene.camera.lookAt = {0, 2.5, 0};
+        maker_.scene.camera.up = {0, 0, 1};
         maker_.scene.camera.fovDegrees = 1;
         maker_.scene.film.width = maker_.scene.film.height = 2;
-        maker_.scene.film.samples = 1024;
+        maker_.scene.film.samples = 256;
         maker_.scene.quality.bounces = 0;
-        maker_.scene.quality.tolerance = 0.01;
+        maker_.scene.quality.tolerance = 0.03;
         const World world = maker_.world();
-        const auto optics = makeBodyOptics(world);
-        clouds_ = std::make_unique<testing::MadeClouds>(world, optics);
+        clouds_ = std::make_unique<testing::MadeClouds>(world, makeBodyOptics(world));
     }
 
     /// Radiance by diffusion and single scattering together at a cosine: by reciprocity the share
-    /// that leaves, of light that falls in at it.
-    DRgb seenAt(double cosine) {
+    /// that leaves, of light that falls in at it. Pass 1 knows nothing of the convention.
+    DRgb seenAt(double cosine, EnergyConvention energy = EnergyConvention::Consistent) {
+        std::get<TranslucentMaterial>(maker_.scene.materials[0].material).energy = energy;
         const double sine = std::sqrt(1 - cosine * cosine);
         maker_.scene.camera.position = {30 * sine, 2.5 + 30 * cosine, 0};
-        maker_.scene.camera.up = {0, 0, 1};
         const World world = maker_.world();
-        const auto optics = makeBodyOptics(world);
         const LayeredImage image = testing::renderFrom(
-            world, optics, [&](std::size_t b) { return clouds_->clouds[b].view(); });
+            world, makeBodyOptics(world), [&](std::size_t b) { return clouds_->clouds[b].view(); });
         DRgb sum(0);
         for (int i = 0; i < 4; ++i)
             for (int c = 0; c < 3; ++c)
@@ -77,31 +76,23 @@ private:
 
 TEST(Energy, CachedPlanesReturnWhatRadiativeTransferReturns) {
     const double enters = 1 - fresnelReflectance(1.0, kEta);
-    for (const char* profile : {"dipole", "photon_beam"}) {
-        PlaneUnderAnEvenSky plane(profile, EnergyConvention::Consistent);
-        const DRgb normal = plane.seenAt(1), diffuse = plane.seenAround();
-        for (int c = 0; c < 3; ++c) {
-            const HalfSpaceTotals truth = halfSpaceTotals(threeMedia().channel(c));
-            EXPECT_NEAR(normal[c], enters * truth.normal, 0.02 * truth.normal) << profile << c;
-            EXPECT_NEAR(diffuse[c], hemisphericalTransmittance(kEta) * truth.diffuse,
-                        0.02 * truth.diffuse)
-                << profile << c;
-        }
-    }
-}
-
-TEST(Energy, JensensSumIsBrighterByWhatIsCountedTwice) {
-    PlaneUnderAnEvenSky consistent("dipole", EnergyConvention::Consistent);
-    PlaneUnderAnEvenSky added("dipole", EnergyConvention::Jensen);
-    const DRgb more = added.seenAt(1) - consistent.seenAt(1);
+    PlaneUnderAnEvenSky plane;
+    const DRgb normal = plane.seenAt(1), diffuse = plane.seenAround();
+    const DRgb added = plane.seenAt(1, EnergyConvention::Jensen);
     for (int c = 0; c < 3; ++c) {
         const ChannelMedium medium = threeMedia().channel(c);
+        const HalfSpaceTotals truth = halfSpaceTotals(medium);
+        const double diffuseTruth = hemisphericalTransmittance(kEta) * truth.diffuse;
+        EXPECT_NEAR(diffuse[c], diffuseTruth, 0.02 * diffuseTruth) << c;
+        // The convention is made for diffuse light: a peak forwards or backwards shows in how much
+        // light along the normal differs from it.
+        const double normalTruth = enters * truth.normal;
+        EXPECT_NEAR(normal[c], normalTruth, (medium.g == 0 ? 0.02 : 0.035) * normalTruth) << c;
+        // Added as the papers do, by what is counted twice (or, forwards, what the dipole lacks).
         const double twice = makeProfile("dipole", medium)->total() +
-                             singleScatterAlbedo(medium, Illumination::Diffuse) -
-                             halfSpaceTotals(medium).diffuse;
-        const double expected = (1 - fresnelReflectance(1.0, kEta)) * twice;
-        EXPECT_NEAR(more[c], expected, 0.003) << c;
-        std::printf("more %g %g\n", more[c], expected);
+                             singleScatterAlbedo(medium, Illumination::Diffuse) - truth.diffuse;
+        EXPECT_NEAR(added[c] - normal[c], enters * twice, 2e-3) << c;
+        EXPECT_TRUE(medium.g > 0 || twice > 0.05) << twice;
     }
 }
 
