@@ -13,6 +13,7 @@
 #include "sss/integrate/body_cloud.h"
 #include "sss/integrate/cloud_cache.h"
 #include "sss/integrate/preprocess.h"
+#include "sss/light/environment_light.h"
 #include "sss/scene/scene_reader.h"
 
 #include <algorithm>
@@ -89,6 +90,19 @@ void readExrBytes(std::span<const std::byte> input) {
         for (const ImageLayer& layer : image.layers)
             if (layer.values.size() != image.pixelCount() * layer.channels.size())
                 fail("a layer of the wrong size");
+    });
+    // As the light of a scene, with what is made of it to be sampled.
+    accepts([&] {
+        EnvironmentLight settings;
+        settings.map = path;
+        const std::unique_ptr<Light> light = makeEnvironment(settings);
+        for (const Vec2& u : {Vec2(0.0f), Vec2(0.3f, 0.7f), Vec2(0.999f)}) {
+            const LightSample sample = light->sample(Vec3(0.0f), u);
+            if (!isFinite(sample.direction) || !isFinite(sample.radiance))
+                fail("a sample of the sky that is not finite");
+        }
+        const Rgb seen = light->seen(Vec3(0.0f), Vec3(0, 0, 1)).radiance;
+        if (!isFinite(seen) || minComponent(seen) < 0) fail("a sky that is not finite or negative");
     });
 }
 

@@ -1,16 +1,21 @@
 // Replaces operator new of this program, to let a chosen allocation fail.
 #include "numbers/passes.h"
 #include "numbers/subjects.h"
+#include "sss/app/stage_chain.h"
 #include "sss/base/error.h"
+#include "sss/image/exr_file.h"
 #include "sss/integrate/cloud_cache.h"
+#include "sss/scene/scene_reader.h"
 #include "support/temporary_folder.h"
 #include "unit/integrate/cache_maker.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cstddef>
 #include <cstdlib>
+#include <functional>
 #include <limits>
 #include <new>
 
@@ -79,19 +84,29 @@ void operator delete[](void* memory, std::align_val_t, const std::nothrow_t&) no
 namespace sss::stress {
 namespace {
 
+// Allocations that are counted without any of them failing.
+constexpr std::int64_t kMany = std::int64_t{1} << 40;
+
 struct Outcome {
     bool isWritten = false, isOutOfMemory = false;
     std::string words;
 };
 
-// Pass 1 and its cache, the `nth` allocation of which fails.
-Outcome passOne(const Scene& scene, const std::filesystem::path& cache, std::int64_t nth) {
+/// Something that reads files and writes a cache, to be tried with one allocation after the other
+/// failing.
+struct Work {
+    const char* name;
+    std::function<void()> run;
+    /// What is wrong with what it has left; empty if nothing is. Clears it away for the next try.
+    std::function<std::string(bool isWritten)> complaint;
+};
+
+// The `nth` allocation of the work fails.
+Outcome outcomeOf(const Work& work, std::int64_t nth) {
     const auto stop = [] { allocationsLeft = std::numeric_limits<std::int64_t>::max(); };
     try {
         allocationsLeft = nth;
-        const Passes passes(scene);
-        testing::writeCache(cache, passes.world(), passes.optics(), passes.clouds(),
-                            passes.reports());
+        work.run();
         stop();
         return {.isWritten = true, .words = "written"};
     } catch (const std::bad_alloc&) {
@@ -100,46 +115,128 @@ Outcome passOne(const Scene& scene, const std::filesystem::path& cache, std::int
     } catch (const Error& error) {
         stop();
         return {.isOutOfMemory = error.kind() == ErrorKind::Resource, .words = error.what()};
+    } catch (const std::exception& error) {
+        stop();
+        return {.words = fmt::format("an exception of no kind of ours: {}", error.what())};
     }
 }
 
-std::int64_t allocationsOfPassOne(const Scene& scene, const std::filesystem::path& cache) {
-    constexpr std::int64_t kMany = std::int64_t{1} << 40;
+std::int64_t allocationsOf(const Work& work) {
+    work.run();  // tables that are made once
+    work.complaint(true);
     allocationsLeft = kMany;
-    const Passes passes(scene);
-    testing::writeCache(cache, passes.world(), passes.optics(), passes.clouds(), passes.reports());
+    work.run();
     const std::int64_t used = kMany - allocationsLeft;
     allocationsLeft = std::numeric_limits<std::int64_t>::max();
+    work.complaint(true);
     return used;
 }
 
-}  // namespace
-
-void stressAllocations(Report& report, Scope scope) {
-    Row row("memory", "any allocation of pass 1 fails: said so, old cache whole", 0);
-    const testing::TemporaryFolder folder;
-    testing::SceneMaker maker =
-        bodyScene(BoxShape{DVec3(4)}, toMedium(*findMeasuredMedium("Marble")));
-    maker.scene.quality.spacingMm = 2;
-    const std::int64_t all = allocationsOfPassOne(maker.scene, folder / "made.ssc");
-    const std::int64_t tries = scope == Scope::Full ? std::min<std::int64_t>(all, 3000) : 60;
-    testing::writeFile(folder / "old.ssc", "old");
+Row tried(const Work& work, std::int64_t mostTries) {
+    Row row("memory", fmt::format("any allocation fails, {}", work.name), 0);
+    const std::int64_t all = allocationsOf(work);
+    const std::int64_t tries = std::min(all, mostTries);
     for (std::int64_t i = 0; i < tries; ++i) {
         // Dense at both ends: opening the scene, and writing the file.
         const std::int64_t nth = i % 3 == 0   ? i / 3
                                  : i % 3 == 1 ? all - 1 - i / 3
                                               : all * i / tries;
-        const Outcome outcome = passOne(maker.scene, folder / "old.ssc", nth);
-        const bool isKept = testing::readFile(folder / "old.ssc") == "old";
-        const auto where = [&] {
-            return fmt::format("allocation {} of {}: {}", nth, all, outcome.words);
-        };
-        // Threads share the count, so that the last ones may not come up.
-        row.expect(outcome.isWritten ? !isKept : outcome.isOutOfMemory && isKept, where);
-        row.expect(folder.fileCount() == 2, where);
-        if (outcome.isWritten) testing::writeFile(folder / "old.ssc", "old");
+        const Outcome outcome = outcomeOf(work, nth);
+        const std::string complaint = work.complaint(outcome.isWritten);
+        // Threads share the count, so that the last ones may not come up; and what can do without
+        // is free to.
+        row.expect((outcome.isWritten || outcome.isOutOfMemory) && complaint.empty(), [&] {
+            return fmt::format("allocation {} of {}: {}; {}", nth, all, outcome.words, complaint);
+        });
     }
-    report.add(row);
+    return row;
+}
+
+// The old cache is there, or a new one, and nothing else.
+std::function<std::string(bool)> oldOrNew(const std::filesystem::path& cache) {
+    const auto filesBeside = [cache] {
+        return std::distance(std::filesystem::directory_iterator(cache.parent_path()), {});
+    };
+    testing::writeFile(cache, "old");
+    return [cache, filesBeside, before = filesBeside()](bool isWritten) -> std::string {
+        const bool isOld = testing::readFile(cache) == "old";
+        testing::writeFile(cache, "old");
+        if (isOld == isWritten) return "the old cache is gone, or the new one is not there";
+        return filesBeside() == before ? "" : "a file was left";
+    };
+}
+
+// Whatever is in the folder is whole.
+std::function<std::string(bool)> wholeStages(const std::filesystem::path& folder) {
+    return [folder](bool /*isWritten*/) {
+        std::string complaint;
+        for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+            if (entry.path().filename() == "lock") continue;
+            try {
+                CacheFile::open(entry.path());
+            } catch (const Error& error) {
+                complaint = error.what();
+            }
+        }
+        std::filesystem::remove_all(folder);
+        std::filesystem::create_directory(folder);
+        return complaint;
+    };
+}
+
+// A scene with one of each kind of file.
+std::filesystem::path writeSceneFiles(const std::filesystem::path& folder) {
+    testing::writeFile(folder / "box.obj",
+                       "v 0 0 0\nv 4 0 0\nv 0 4 0\nv 0 0 4\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n");
+    const float nodes[8] = {0, 0, 0, 0, 1, 1, 1, 1};
+    testing::writeFile(folder / "fog.raw",
+                       std::string(reinterpret_cast<const char*>(nodes), sizeof nodes));
+    LayeredImage sky{32, 16, {}, {}};
+    sky.layers = {{"", {"R", "G", "B"}, std::vector<float>(3 * sky.pixelCount(), 0.5f), false}};
+    writeExr(folder / "sky.exr", sky);
+    const std::filesystem::path scene = folder / "scene.json";
+    testing::writeFile(scene, R"({
+      "metersPerUnit": 0.001, "camera": {"position": [0, 0, 30], "lookAt": [0, 0, 0]},
+      "quality": {"spacingMm": 2, "tolerance": 0.1, "bounces": 0, "irradianceSamples": 4},
+      "materials": {"stone": {"type": "translucent", "medium": "Marble"}},
+      "objects": [{"mesh": "box.obj", "material": "stone"}],
+      "volumes": [{"shape": "box", "size": [20, 20, 20], "sigmaSPerMm": 0.01,
+                   "grid": {"file": "fog.raw", "dimensions": [2, 2, 2]}}],
+      "lights": [{"type": "environment", "map": "sky.exr"}]})");
+    return scene;
+}
+
+void writePasses(const Scene& scene, const std::filesystem::path& cache) {
+    const Passes passes(scene);
+    testing::writeCache(cache, passes.world(), passes.optics(), passes.clouds(), passes.reports());
+}
+
+void makeStages(const Scene& scene, const std::filesystem::path& folder) {
+    SilentReporter silent;
+    RunStats stats("sss-stress");
+    StageChain chain({.folder = folder, .limits = {}}, silent, stats);
+    chain.prepare(std::make_shared<const World>(scene, silent), nullptr);
+}
+
+}  // namespace
+
+void stressAllocations(Report& report, Scope scope) {
+    const testing::TemporaryFolder ofBox, ofFiles, ofStages;
+    testing::SceneMaker maker =
+        bodyScene(BoxShape{DVec3(4)}, toMedium(*findMeasuredMedium("Marble")));
+    maker.scene.quality.spacingMm = 2;
+    const std::filesystem::path file = writeSceneFiles(ofFiles.path());
+    const std::filesystem::path stages = ofStages / "stages";
+    std::filesystem::create_directory(stages);
+    const Work works[] = {
+        {"pass 1: said so, old cache whole", [&] { writePasses(maker.scene, ofBox / "a.ssc"); },
+         oldOrNew(ofBox / "a.ssc")},
+        {"scene, mesh, sky, grid and pass 1: said so, old cache whole",
+         [&] { writePasses(readScene(file), ofFiles / "a.ssc"); }, oldOrNew(ofFiles / "a.ssc")},
+        {"a folder of stages: said so, what is there is whole",
+         [&] { makeStages(maker.scene, stages); }, wholeStages(stages)},
+    };
+    for (const Work& work : works) report.add(tried(work, scope == Scope::Full ? 3000 : 60));
 }
 
 }  // namespace sss::stress

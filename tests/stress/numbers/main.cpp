@@ -22,7 +22,7 @@ struct Subject {
 constexpr Subject kSubjects[] = {
     {"optics", stressOptics},      {"media", stressMedia},   {"surfaces", stressSurfaces},
     {"sums", stressSums},          {"scenes", stressScenes}, {"caches", stressCaches},
-    {"memory", stressAllocations}, {"corpus", stressCorpus},
+    {"memory", stressAllocations}, {"corpus", stressCorpus}, {"damage", stressMutations},
 };
 
 struct Options {

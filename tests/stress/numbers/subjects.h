@@ -23,4 +23,7 @@ void stressAllocations(Report& report, Scope scope);
 /// Every input that tests/stress/corpus holds, as the fuzzers feed it.
 void stressCorpus(Report& report, Scope scope);
 
+/// Many more, made from those, the same in every run.
+void stressMutations(Report& report, Scope scope);
+
 }  // namespace sss::stress

@@ -160,7 +160,15 @@ TEST(SceneReader, LetsTheCallerOverruleTheUnit) {
     EXPECT_EQ(readSceneText(unitless, "x.json", 1.0).camera.position.z, 9000);
     EXPECT_THROW(readSceneText(unitless, "x.json"), Error);
     for (const double bad : {0.0, -1.0, 1e7, std::numeric_limits<double>::quiet_NaN()}) {
-        EXPECT_THROW(readSceneText(unitless, "x.json", bad), Error) << bad;
+        try {
+            readSceneText(unitless, "x.json", bad);
+            ADD_FAILURE() << "accepted " << bad;
+        } catch (const Error& error) {
+            EXPECT_EQ(std::string(error.what()),
+                      fmt::format("x.json: metersPerUnit is given as {}; it must be from 1e-09 to "
+                                  "1000000",
+                                  bad));
+        }
     }
 }
 
