@@ -189,6 +189,20 @@ TEST(Json, ReadsFilesAndNamesThoseThatItCannot) {
     }
 }
 
+// A file that opens and whose reading fails; where there is none, the sentence stays untried.
+TEST(Json, SaysThatAFileCannotBeReadToItsEnd) {
+    const std::filesystem::path unreadable = "/proc/self/mem";
+    if (!std::filesystem::exists(unreadable)) GTEST_SKIP();
+    try {
+        readJsonFile(unreadable);
+        FAIL() << "no error";
+    } catch (const Error& error) {
+        EXPECT_EQ(error.kind(), ErrorKind::Io);
+        EXPECT_EQ(std::string(error.what()),
+                  unreadable.string() + ": the file cannot be read to its end");
+    }
+}
+
 TEST(Json, WritesWhatItBuilds) {
     JsonValue v = JsonValue::object();
     v.set("points", std::size_t{118204}).set("spacingMm", 0.42).set("file", "a \"b\"\n");

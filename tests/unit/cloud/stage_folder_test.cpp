@@ -31,7 +31,19 @@ void write(const StageFolder& folder, Stage stage) {
 
 TEST(StageFolder, NamesStagesByWhatTheyAreMadeFrom) {
     const TemporaryFolder place;
-    EXPECT_THROW(StageFolder(place / "deep/in/it", false), Error);
+    const auto wordsOf = [](const std::filesystem::path& path, bool create) -> std::string {
+        try {
+            StageFolder(path, create);
+        } catch (const Error& error) {
+            return error.what();
+        }
+        return "accepted";
+    };
+    EXPECT_EQ(
+        wordsOf(place / "deep/in/it", false),
+        (place / "deep/in/it").string() + ": there is no such folder; run sss-preprocess first");
+    std::ofstream(place / "file").flush();
+    EXPECT_NE(wordsOf(place / "file/in", true).find("cannot make the folder: "), std::string::npos);
     const StageFolder folder(place / "deep/in/it", true);
     EXPECT_EQ(folder.file(Stage::Points, kMade).filename(),
               "points-fedcba98765432100123456789abcdef.ssp");

@@ -1,5 +1,6 @@
 #include "sss/base/error.h"
 #include "sss/integrate/cloud_cache.h"
+#include "sss/integrate/cloud_sections.h"
 #include "sss/integrate/scene_fingerprint.h"
 #include "support/temporary_folder.h"
 #include "unit/integrate/cache_maker.h"
@@ -259,13 +260,47 @@ TEST(CloudCache, MetadataThatIsNotOursIsRefused) {
     const TemporaryFolder folder;
     const Written written(folder / "good.ssc");
     const CacheFile good = CacheFile::open(folder / "good.ssc");
-    for (const char* meta : {"{}", "[]", R"({"bodies": 3})", R"({"bodies": [7]})",
-                             R"({"bodies": [{"inputs": 1}]})", "not json"}) {
+    const std::pair<const char*, const char*> cases[] = {
+        {"{}", "its metadata has no \"bodies\""},
+        {"[]", "its metadata has no \"bodies\""},
+        {R"({"bodies": 3})", "its metadata lists no bodies"},
+        {R"({"bodies": [7]})", "its metadata has no \"inputs\""},
+        {R"({"bodies": [{"inputs": 1}]})", "made for another scene"},
+        {"not json", "bad.ssc:1:"}};
+    for (const auto& [meta, words] : cases) {
         CacheWriter writer(folder / "bad.ssc");
         writer.add<SurfacePoint>("points", 0, {}, good.section<SurfacePoint>("points", 0));
         writer.addText("meta", 0, {}, meta);
         writer.commit();
-        EXPECT_NE(refusal(folder / "bad.ssc", written.maker.scene), "not refused") << meta;
+        const std::string message = refusal(folder / "bad.ssc", written.maker.scene);
+        EXPECT_NE(message.find(words), std::string::npos) << meta << ": " << message;
+    }
+}
+
+// Sections that are whole, of a stage that is not the one they are taken for.
+TEST(CloudCache, SectionsThatDoNotFitTheirPointsAreRefused) {
+    const TemporaryFolder folder;
+    CacheWriter writer(folder / "bad.ssc");
+    writer.add<SurfacePoint>("points", 0, {}, std::vector<SurfacePoint>(3));
+    writer.add<CellPiece>("pieces", 0, {}, std::vector<CellPiece>(2));
+    writer.add<Vec2>("corners", 0, {}, std::vector<Vec2>(6));
+    writer.add<std::uint32_t>("first", 0, {}, std::vector<std::uint32_t>{0, 1, 2});
+    writer.add<Rgb>("shape", 1, {}, std::vector<Rgb>(2));
+    writer.add<std::uint32_t>("beams", 0, {}, std::vector<std::uint32_t>(2));
+    writer.commit();
+    const CacheFile file = CacheFile::open(folder / "bad.ssc");
+    const std::pair<std::function<void()>, const char*> readers[] = {
+        {[&] { correctionOf(file, 1, 3); }, "the correction of body 1 does not fit its points"},
+        {[&] { beamsOf(file, 3); }, "its beams do not fit its points"},
+        {[&] { samplesOf(file, 12); }, "its cells do not fit its points"}};
+    for (const auto& [read, words] : readers) {
+        try {
+            read();
+            ADD_FAILURE() << "accepted where it should have said: " << words;
+        } catch (const Error& error) {
+            EXPECT_EQ(error.kind(), ErrorKind::BadInput);
+            EXPECT_NE(std::string(error.what()).find(words), std::string::npos) << error.what();
+        }
     }
 }
 
