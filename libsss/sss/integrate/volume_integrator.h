@@ -7,8 +7,9 @@
 namespace sss {
 
 /// Radiative transfer itself, by unidirectional path tracing (VolumePath): no diffusion, no cache,
-/// any number of scatterings and of reflections inside. Unbiased but for rounding; the judge of
-/// all profiles. Its layers compare with those of the cached integrator, but for `single`, which
+/// any number of scatterings, of reflections inside, and of bodies on the way. Unbiased but for
+/// rounding, and for light that opaque surfaces reflect more often than `bounces` allows; the judge
+/// of all profiles. Its layers compare with those of the cached integrator, but for `single`, which
 /// here follows light exactly, and has light that is reflected inside as well.
 class VolumeIntegrator : public Integrator {
 public:

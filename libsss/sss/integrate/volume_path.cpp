@@ -87,11 +87,10 @@ bool VolumePath::throughSpace() {
     }
     if (!isHit) return false;
     const SurfaceHit hit = world_.surfaceAt(found);
-    if (hit.body >= 0 && mediumOf(hit.body).eta == 1.0f) return cross(hit);
-    if (hit.body < 0) add(radianceOfEmitter(world_, ray_, hit, origin_));
-    if (arrivals_ > world_.scene().quality.bounces) return false;
-    ++arrivals_;
-    return hit.body >= 0 ? cross(hit) : reflectOpaque(hit);
+    if (hit.body >= 0) return cross(hit);
+    add(radianceOfEmitter(world_, ray_, hit, origin_));
+    if (opaqueArrivals_++ > world_.scene().quality.bounces) return false;
+    return reflectOpaque(hit);
 }
 
 bool VolumePath::scatterInVolumes(const VolumeSegment& segment, float distanceMm) {

@@ -11,7 +11,9 @@ namespace sss {
 /// One path of the radiative transfer, from the camera on: free paths and Henyey-Greenstein
 /// scattering inside bodies and in volumes, reflection or refraction at the boundaries of bodies,
 /// BSDFs on opaque surfaces. Lights are found where the path meets them and, from everything that
-/// scatters and is not sealed by a refracting boundary, by light sampling as well.
+/// scatters and is not sealed by a refracting boundary, by light sampling as well. Bodies and
+/// volumes are entered any number of times: where little is left of a path, chance decides whether
+/// it ends. The scene's `bounces` limits reflections by opaque surfaces only.
 class VolumePath {
 public:
     /// All outlive the path. `media` by body.
@@ -58,9 +60,9 @@ private:
     Ray ray_;
     Vec3 start_{};  // where the ray's segment begins, without the step off the surface
     ScatterOrigin origin_;
-    int body_ = -1;       // whose medium the path is in
-    int firstBody_ = -1;  // that the path entered
-    int arrivals_ = 0;    // at surfaces, from outside
+    int body_ = -1;           // whose medium the path is in
+    int firstBody_ = -1;      // that the path entered
+    int opaqueArrivals_ = 0;  // from outside of bodies
     int scatterings_ = 0;
     Layer layer_ = Layer::Undecided;
 };

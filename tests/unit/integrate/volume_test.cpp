@@ -35,6 +35,26 @@ TEST(Volume, WhiteFurnace) {
         }
 }
 
+// The same between two blocks of one body, where light leaves and enters again many times: that is
+// not for `bounces` to limit, which counts opaque surfaces.
+TEST(Volume, WhiteFurnaceOfAConcaveBody) {
+    SceneMaker maker;
+    maker.scene.quality.bounces = 0;
+    const int white = maker.material(grey(0, 10, 1.5));
+    for (const double side : {-1.0, 1.0})
+        maker.object(BoxShape{{3, 1, 3}}, white, moved({0, 0.6 * side, 0})).group = "pair";
+    maker.light(sky());
+    const Experiment experiment(maker);
+    ASSERT_EQ(experiment.world().bodies().size(), 1u);
+    const Estimate e = estimate(16, [&](Sampler& sampler) {
+        Ray ray;  // from the middle of the gap
+        ray.origin = Vec3(0);
+        ray.direction = glm::normalize(Vec3(sampler.next1D() - 0.5f, 1, 0.1f));
+        return all(experiment.trace(ray, sampler));
+    });
+    expectWithin(e, DRgb(1), 1e-4, 1e-4);
+}
+
 // Each channel by the lead of any other.
 TEST(Volume, ColouredWhiteFurnace) {
     TranslucentMaterial white = grey(0, 4, 1.4);
