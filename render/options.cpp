@@ -41,8 +41,10 @@ Frames of an animated scene (scenes/README.md)
 
 Quality
   --integrator NAME       cached: diffusion by the point cloud; bssrdf: the same sample by sample,
-                          no cache, noisy; brdf: diffusion without spread, no cache; volume:
-                          radiative transfer, slow, the ground truth [the scene's, or cached]
+                          no cache, noisy (one shadow ray a sample; other bodies light it in their
+                          diffuse limit); brdf: diffusion without spread, no cache; lambertian:
+                          diffuse surfaces, no cache; volume: radiative transfer, slow, the ground
+                          truth [the scene's, or cached]
   --samples N             per pixel [the scene's, or 64]
   --size WxH              of the picture [the scene's, or 512x512; pixels]
   --tolerance T           relative error of diffusion [the scene's, or 0.01]

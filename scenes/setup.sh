@@ -12,8 +12,8 @@ SSS_PACKAGES=(
 )
 # For scenes/demo.sh --animation only.
 SSS_VIDEO_PACKAGES=(ffmpeg)
-# For tests/run.sh only.
-SSS_TEST_PACKAGES=(clang-format clang-tidy python3-jsonschema)
+# For tests/run.sh only; the last one draws the charts of the benchmark's quickest run.
+SSS_TEST_PACKAGES=(clang-format clang-tidy python3-jsonschema python3-matplotlib)
 # For tests/run.sh --full only: a render farm of one machine.
 SSS_FARM_PACKAGES=(slurm-wlm)
 # For tests/stress/run.sh --full only.

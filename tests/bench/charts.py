@@ -1,4 +1,5 @@
-"""All charts, as SVG and PNG. Needs matplotlib."""
+"""All charts, as SVG and PNG. Needs matplotlib. error-over-time.png is the one that the READMEs show:
+copy it beside this file."""
 
 import picture_plots
 import plots
@@ -10,9 +11,9 @@ def draw(result, folder):
     note = (f"{about['processor']}, one core at {about['clockHertz'] / 1e9:.1f} GHz, "
             f"{about['commit']}")
     for part, name, make in (
-            ("pictures", "pictures", picture_plots.error_over_time),
+            ("pictures", "error-over-time", picture_plots.error_over_time),
             ("models", "models", picture_plots.model_errors),
-            ("scenes", "error-over-time", plots.error_over_time),
+            ("scenes", "receiver-error-over-time", plots.error_over_time),
             ("scenes", "time-over-tolerance", plots.time_over_tolerance),
             ("scenes", "tolerance-kept", plots.tolerance_kept),
             ("scaling", "scaling", plots.scaling),

@@ -27,7 +27,7 @@ SECTIONS = (
      "and its error is that against the whole sum in double precision."),
 )
 CHARTS = {
-    "pictures": [("pictures", "Error of the diffusion layer over CPU time of the whole picture, all "
+    "pictures": [("error-over-time", "Error of the diffusion layer over CPU time of the whole picture, all "
                   "passes. Grey lines: 2 % and 1 %. Dotted: extrapolated by the square root of the "
                   "samples.")],
     "models": [("models", "Mean and RMS difference to radiative transfer over the object, with two "
@@ -35,7 +35,7 @@ CHARTS = {
     "frame": [("frame", "CPU seconds by phase.")],
     "scaling": [("scaling", "Interactions and time of a receiver.")],
     "hierarchy": [
-        ("error-over-time", "Error over time of a receiver."),
+        ("receiver-error-over-time", "Error over time of a receiver."),
         ("time-over-tolerance", "Ours by the tolerance asked for, others by the error they have."),
         ("tolerance-kept", "Tolerance asked for, and error found.")],
 }

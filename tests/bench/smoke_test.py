@@ -6,6 +6,7 @@ says what it should, and that the errors are those of methods that work.
 """
 
 import csv
+import importlib.util
 import json
 import math
 import os
@@ -138,6 +139,9 @@ class SmokeTest(unittest.TestCase):
         self.assertEqual(links, [])
         # Of three methods: the picture, its reference, the error image.
         self.assertEqual(page.count("data:image/png;base64,"), 9)
+        if importlib.util.find_spec("matplotlib"):
+            # Every part has its charts: a page of tables alone would not say so.
+            self.assertEqual(page.count("<svg"), 7)
         for section in ("pictures", "models", "frame", "scaling", "hierarchy", "machine"):
             self.assertIn(f'<section id="{section}">', page)
             self.assertIn(f'href="#{section}"', page)

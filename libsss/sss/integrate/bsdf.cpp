@@ -1,6 +1,7 @@
 #include "sss/integrate/bsdf.h"
 
 #include "sss/base/warp.h"
+#include "sss/integrate/half_space_single.h"
 #include "sss/optics/fresnel.h"
 
 #include <algorithm>
@@ -41,6 +42,10 @@ Bsdf::Bsdf(const World& world, const SurfaceHit& hit, const Vec3& wo, const Body
         albedo_ = optics->diffuseAlbedo;
         if (shading == BodyShading::DiffuseLimit) {
             kind_ = Kind::DiffuseLimit;
+        } else if (shading == BodyShading::ScatteredOnce) {
+            kind_ = Kind::ScatteredOnce;
+        } else if (shading == BodyShading::Lambertian) {
+            kind_ = Kind::Diffuse;
         } else if (translucent->surfaceReflection && optics->eta != 1.0f) {
             kind_ = Kind::Coat;
             ggx_ = Ggx(static_cast<float>(translucent->roughness));
@@ -59,6 +64,7 @@ bool Bsdf::hasSmoothPart() const {
             return false;
         case Kind::Diffuse:
         case Kind::DiffuseLimit:
+        case Kind::ScatteredOnce:
             return true;
         case Kind::Conductor:
         case Kind::Coat:
@@ -67,10 +73,18 @@ bool Bsdf::hasSmoothPart() const {
     return false;
 }
 
-// BRDF of the two diffuse kinds.
-Rgb Bsdf::diffuseValue(float cosIncident) const {
+// The kinds whose light is looked for all over the hemisphere.
+bool Bsdf::isWide() const {
+    return kind_ == Kind::Diffuse || kind_ == Kind::DiffuseLimit || kind_ == Kind::ScatteredOnce;
+}
+
+// BRDF of these.
+Rgb Bsdf::wideValue(const Vec3& wiLocal) const {
     if (kind_ == Kind::Diffuse) return albedo_ * (1.0f / kPiF);
-    const float entering = 1.0f - fresnelReflectance(cosIncident, optics_->eta);
+    if (kind_ == Kind::ScatteredOnce)
+        return halfSpaceSingleScattering(MediumCoefficients(optics_->material.medium), optics_->eta,
+                                         woLocal_, wiLocal);
+    const float entering = 1.0f - fresnelReflectance(wiLocal.z, optics_->eta);
     return albedo_ * (entering * optics_->radiancePerExitance(woLocal_.z));
 }
 
@@ -82,7 +96,8 @@ Rgb Bsdf::evaluate(const Vec3& wi) const {
             return Rgb(0);
         case Kind::Diffuse:
         case Kind::DiffuseLimit:
-            return diffuseValue(wiLocal.z) * wiLocal.z;
+        case Kind::ScatteredOnce:
+            return wideValue(wiLocal) * wiLocal.z;
         case Kind::Conductor:
             return conductorReflection(ggx_, woLocal_, wiLocal, index_) * wiLocal.z;
         case Kind::Coat:
@@ -99,6 +114,7 @@ float Bsdf::pdf(const Vec3& wi) const {
             return 0;
         case Kind::Diffuse:
         case Kind::DiffuseLimit:
+        case Kind::ScatteredOnce:
             return wiLocal.z / kPiF;
         case Kind::Conductor:
         case Kind::Coat:
@@ -110,11 +126,11 @@ float Bsdf::pdf(const Vec3& wi) const {
 Bsdf::Sample Bsdf::sample(const Vec2& u) const {
     Sample result;
     if (kind_ == Kind::Black) return result;
-    if (kind_ == Kind::Diffuse || kind_ == Kind::DiffuseLimit) {
+    if (isWide()) {
         const Vec3 wiLocal = cosineDirection(u);
         if (wiLocal.z <= 0) return result;
         result.pdf = wiLocal.z / kPiF;
-        result.weight = diffuseValue(wiLocal.z) * kPiF;
+        result.weight = wideValue(wiLocal) * kPiF;
         result.wi = frame_.toWorld(wiLocal);
     } else {
         const ReflectionSample reflected =

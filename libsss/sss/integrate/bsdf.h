@@ -8,12 +8,14 @@ namespace sss {
 
 /// Local scattering at a surface point, in world directions away from the surface: everything that
 /// needs no other place. What a translucent body sends out from within is not part of it, but for
-/// the diffuse limit, in which it is local by definition.
+/// the limit of short mean free paths, in which it is local by definition.
 class Bsdf {
 public:
     enum class BodyShading {
-        Surface,       ///< a translucent body shows its reflection only
-        DiffuseLimit,  ///< ... or only the diffuse limit of what comes from within
+        Surface,        ///< a translucent body shows its reflection only
+        DiffuseLimit,   ///< ... or only the diffuse limit of what comes from within
+        ScatteredOnce,  ///< ... or only what a half-space sends back after one scattering
+        Lambertian,     ///< ... or is a Lambertian surface with the reflectance of that limit
     };
     Bsdf(const World& world, const SurfaceHit& hit, const Vec3& wo, const BodyOptics* optics,
          BodyShading shading);
@@ -45,8 +47,9 @@ public:
     Rgb albedo() const { return albedo_; }
 
 private:
-    enum class Kind { Black, Diffuse, DiffuseLimit, Conductor, Coat };
-    Rgb diffuseValue(float cosIncident) const;
+    enum class Kind { Black, Diffuse, DiffuseLimit, ScatteredOnce, Conductor, Coat };
+    bool isWide() const;
+    Rgb wideValue(const Vec3& wiLocal) const;
 
     Kind kind_ = Kind::Black;
     Vec3 geometricNormal_;

@@ -25,6 +25,7 @@ constexpr std::array kKinds{
     IntegratorKind{"cached", true, make<CachedIntegrator>},
     IntegratorKind{"bssrdf", false, make<BssrdfIntegrator>},
     IntegratorKind{"brdf", false, make<DiffuseLimitIntegrator>},
+    IntegratorKind{"lambertian", false, make<LambertianIntegrator>},
     IntegratorKind{"volume", false, make<VolumeIntegrator>},
 };
 

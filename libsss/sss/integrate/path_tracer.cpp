@@ -36,14 +36,16 @@ void PathCounts::add(const PathCounts& other) {
 }
 
 PathTracer::PathTracer(const World& world, std::span<const std::unique_ptr<BodyOptics>> optics,
-                       const ExitanceSource* exitance)
-    : world_(world), optics_(optics), exitance_(exitance) {}
+                       const ExitanceSource* exitance, Bsdf::BodyShading local)
+    : world_(world),
+      optics_(optics),
+      exitance_(exitance),
+      shading_(exitance ? Bsdf::BodyShading::Surface : local) {}
 
 Bsdf PathTracer::bsdfAt(const SurfaceHit& hit, const Vec3& wo) const {
     const BodyOptics* optics =
         hit.body >= 0 ? optics_[static_cast<std::size_t>(hit.body)].get() : nullptr;
-    return Bsdf(world_, hit, wo, optics,
-                exitance_ ? Bsdf::BodyShading::Surface : Bsdf::BodyShading::DiffuseLimit);
+    return Bsdf(world_, hit, wo, optics, shading_);
 }
 
 Rgb PathTracer::openLight(const SurfaceHit& hit, const Bsdf& bsdf, Sampler& sampler,

@@ -34,9 +34,11 @@ struct PathCounts {
 /// thread-safe.
 class PathTracer {
 public:
-    /// `optics` by body; `exitance` null for the diffuse limit. All outlive the tracer.
+    /// `optics` by body; `exitance` null for the diffuse limit, or what else `local` says. All
+    /// outlive the tracer.
     PathTracer(const World& world, std::span<const std::unique_ptr<BodyOptics>> optics,
-               const ExitanceSource* exitance);
+               const ExitanceSource* exitance,
+               Bsdf::BodyShading local = Bsdf::BodyShading::DiffuseLimit);
 
     /// The most rays that are traced together.
     static constexpr std::size_t kMostViews = 16;
@@ -112,6 +114,7 @@ private:
     const World& world_;
     std::span<const std::unique_ptr<BodyOptics>> optics_;
     const ExitanceSource* exitance_;
+    Bsdf::BodyShading shading_;
 };
 
 }  // namespace sss

@@ -1,6 +1,7 @@
 #pragma once
 #include "sss/integrate/light_sampling.h"
 #include "sss/integrate/medium_coefficients.h"
+#include "sss/optics/microfacet.h"
 
 #include <span>
 
@@ -10,8 +11,10 @@ namespace sss {
 struct BodyMedium {
     MediumCoefficients medium;
     float eta = 1;
-    Vec3 centre{};     ///< of a ball around the body, in the world's space
-    float radius = 0;  ///< mm
+    Ggx boundary{0};
+    bool samplesLights = false;  ///< at its boundary: those that no path finds
+    Vec3 centre{};               ///< of a ball around the body, in the world's space
+    float radius = 0;            ///< mm
 };
 
 /// A place in space, or in the medium of a body.

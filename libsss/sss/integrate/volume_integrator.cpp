@@ -15,6 +15,14 @@ namespace {
     throw Error(ErrorKind::BadInput, world.scene().file.string(), what, hint);
 }
 
+Ggx boundaryOf(const TranslucentMaterial& material) {
+    return Ggx(static_cast<float>(material.roughness));
+}
+
+bool hasLightsWithoutSize(const World& world) {
+    return std::ranges::any_of(world.lights(), [](const auto& light) { return light->isDelta(); });
+}
+
 void requireTraceable(const World& world, const Body& body) {
     const TranslucentMaterial& material = world.materialOf(body);
     if (!body.closed)
@@ -23,19 +31,14 @@ void requireTraceable(const World& world, const Body& body) {
                            "volume integrator",
                            body.name),
                "close the mesh, or take the integrator \"cached\"");
-    if (material.medium.eta == 1.0) return;
-    if (!Ggx(static_cast<float>(material.roughness)).isSpecular())
-        refuse(world,
-               fmt::format("the boundary of \"{}\" is rough ({}), and the volume integrator "
-                           "refracts at smooth boundaries only",
-                           body.name, material.roughness),
-               "set its \"roughness\" to 0");
-    if (std::ranges::any_of(world.lights(), [](const auto& light) { return light->isDelta(); }))
+    if (material.medium.eta == 1.0 || !boundaryOf(material).isSpecular()) return;
+    if (hasLightsWithoutSize(world))
         refuse(world,
                fmt::format("paths of the volume integrator that leave \"{}\" cannot find a point, "
-                           "spot or directional light: they are refracted, and it has no size",
+                           "spot or directional light: the boundary is smooth, and it has no size",
                            body.name),
-               "take a sphere, rectangle or environment light, or set \"eta\" to 1");
+               "take a sphere, rectangle or environment light, or a \"roughness\" above 0.01, or "
+               "set \"eta\" to 1");
 }
 
 }  // namespace
@@ -44,9 +47,11 @@ VolumeIntegrator::VolumeIntegrator(const IntegratorInput& input)
     : world_(input.world), optics_(input.optics) {
     for (const Body& body : world_.bodies()) {
         requireTraceable(world_, body);
-        const Medium& medium = world_.materialOf(body).medium;
+        const TranslucentMaterial& material = world_.materialOf(body);
+        const Medium& medium = material.medium;
         const DBounds bounds = body.mesh.bounds();
         media_.push_back({MediumCoefficients(medium), static_cast<float>(medium.eta),
+                          boundaryOf(material), hasLightsWithoutSize(world_),
                           Vec3(body.worldFromBody.transformPoint(bounds.centre())),
                           static_cast<float>(0.5 * bounds.diagonal())});
     }

@@ -13,8 +13,8 @@ namespace sss {
 /// here follows light exactly, and has light that is reflected inside as well.
 class VolumeIntegrator : public Integrator {
 public:
-    /// Throws Error{BadInput} for bodies that are open, whose boundary is rough, and, unless all
-    /// indices match, for lights without size: paths cannot find those behind a boundary.
+    /// Throws Error{BadInput} for bodies that are open, and, where one has a smooth boundary that
+    /// refracts, for lights without size: paths cannot find those behind it.
     explicit VolumeIntegrator(const IntegratorInput& input);
     FilmSample trace(const Ray& ray, Sampler& sampler, PathCounts& counts) const override;
 

@@ -40,6 +40,10 @@ const TranslucentMaterial& VolumePath::firstMaterial() const {
     return world_.materialOf(world_.bodies()[static_cast<std::size_t>(firstBody_)]);
 }
 
+bool VolumePath::reflects(int body) const {
+    return world_.materialOf(world_.bodies()[static_cast<std::size_t>(body)]).surfaceReflection;
+}
+
 // A body without single scattering shows all that is scattered as diffusion, as by its profile.
 VolumePath::Layer VolumePath::scatteredLayer() const {
     if (firstBody_ < 0 || scatterings_ == 0) return Layer::Surface;
@@ -206,12 +210,18 @@ bool VolumePath::cross(const SurfaceHit& hit) {
         startFrom(hit.position, world_.leave(hit, side), ray_.direction);
         return true;  // straight on, and light sampling knows the way
     }
-    const BoundaryEvent event = sampleBoundary(hit, ray_.direction, eta, sampler_.next1D());
+    const Ggx& ggx = mediumOf(hit.body).boundary;
+    BoundaryEvent event;
+    if (ggx.isSpecular()) {
+        event = sampleBoundary(hit, ray_.direction, eta, sampler_.next1D());
+    } else {
+        const RoughBoundary boundary(hit, ray_.direction, eta, ggx);
+        if (mediumOf(hit.body).samplesLights) lightAtBoundary(hit, boundary);
+        event = boundary.sample(sampler_);
+    }
     if (event.isReflected && !wasInside) {
         settle(Layer::Surface);
-        if (!world_.materialOf(world_.bodies()[static_cast<std::size_t>(hit.body)])
-                 .surfaceReflection)
-            return false;
+        if (!reflects(hit.body)) return false;
     } else if (!event.isReflected) {
         // Radiance over eta^2 is what refraction keeps.
         weight_.scale(wasInside ? eta * eta : 1.0f / (eta * eta));
@@ -221,6 +231,22 @@ bool VolumePath::cross(const SurfaceHit& hit) {
     origin_ = {};
     startFrom(hit.position, world_.leave(hit, event.side), event.direction);
     return true;
+}
+
+// Lights without size, which no path meets: all of them, and no others, are left to this.
+void VolumePath::lightAtBoundary(const SurfaceHit& hit, const RoughBoundary& boundary) {
+    const bool wasInside = glm::dot(hit.geometricNormal, ray_.direction) > 0;
+    const Vec3 from = world_.leave(hit, hit.geometricNormal);
+    const float uPick = sampler_.next1D();
+    const DirectSample direct = sampleDirect(world_, from, uPick, sampler_.next2D());
+    if (!direct.isDelta || !(direct.pdf > 0)) return;
+    if (!(glm::dot(hit.geometricNormal, direct.direction) > 0)) return;
+    if (!wasInside && !reflects(hit.body)) return;
+    const float density = boundary.density(direct.direction, sampler_);
+    if (!(density > 0)) return;
+    const float eta = mediumOf(hit.body).eta;
+    add(density * (wasInside ? eta * eta : 1.0f) * direct.radianceOverPdf *
+        transmittedShare(world_, media_, {from, -1}, direct, counts_.rays));
 }
 
 bool VolumePath::reflectOpaque(const SurfaceHit& hit) {

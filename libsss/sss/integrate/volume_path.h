@@ -1,6 +1,7 @@
 #pragma once
 #include "sss/image/film.h"
 #include "sss/integrate/path_tracer.h"
+#include "sss/integrate/rough_boundary.h"
 #include "sss/integrate/spectral_weight.h"
 #include "sss/integrate/transmitted_light.h"
 
@@ -11,7 +12,8 @@ namespace sss {
 /// One path of the radiative transfer, from the camera on: free paths and Henyey-Greenstein
 /// scattering inside bodies and in volumes, reflection or refraction at the boundaries of bodies,
 /// BSDFs on opaque surfaces. Lights are found where the path meets them and, from everything that
-/// scatters and is not sealed by a refracting boundary, by light sampling as well. Bodies and
+/// scatters and is not sealed by a refracting boundary, by light sampling as well; lights without
+/// size also from rough boundaries. Bodies and
 /// volumes are entered any number of times: where little is left of a path, chance decides whether
 /// it ends. The scene's `bounces` limits reflections by opaque surfaces only.
 class VolumePath {
@@ -35,6 +37,7 @@ private:
     bool collideAfter(float distanceMm);
     bool leak();
     bool cross(const SurfaceHit& hit);
+    void lightAtBoundary(const SurfaceHit& hit, const RoughBoundary& boundary);
     bool reflectOpaque(const SurfaceHit& hit);
     void lightScattered(const MediumCoefficients& medium);
     bool survives();
@@ -42,6 +45,7 @@ private:
     bool isInside() const { return body_ >= 0; }
     const BodyMedium& mediumOf(int body) const { return media_[static_cast<std::size_t>(body)]; }
     const TranslucentMaterial& firstMaterial() const;
+    bool reflects(int body) const;
     Layer scatteredLayer() const;
     void settle(Layer layer) {
         if (layer_ == Layer::Undecided) layer_ = layer;

@@ -44,6 +44,14 @@ float Ggx::normalDensity(const Vec3& h) const {
     return 1.0f / (kPiF * alpha2 * e * e);
 }
 
+float Ggx::visibleArea(const Vec3& w) const {
+    const float slopes = alpha_ * alpha_ * (w.x * w.x + w.y * w.y);
+    const float root = std::sqrt(w.z * w.z + slopes);
+    // (root + z) / 2 without its cancellation.
+    if (w.z >= 0) return 0.5f * (root + w.z);
+    return 0.5f * slopes / (root - w.z);
+}
+
 Vec3 Ggx::sampleVisibleNormal(const Vec3& wo, const Vec2& u) const {
     // Stretch so that the distribution is a hemisphere, seen from `view`.
     const Vec3 view = glm::normalize(Vec3{alpha_ * wo.x, alpha_ * wo.y, wo.z});
@@ -65,8 +73,8 @@ Vec3 Ggx::sampleVisibleNormal(const Vec3& wo, const Vec2& u) const {
 }
 
 float Ggx::visibleNormalPdf(const Vec3& wo, const Vec3& h) const {
-    if (!(wo.z > 0)) return 0;
-    return masking(wo) * std::max(0.0f, glm::dot(wo, h)) * normalDensity(h) / wo.z;
+    const float area = visibleArea(wo);
+    return area > 0 ? std::max(0.0f, glm::dot(wo, h)) * normalDensity(h) / area : 0;
 }
 
 float Ggx::reflectionPdf(const Vec3& wo, const Vec3& wi) const {

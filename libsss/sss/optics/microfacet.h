@@ -26,8 +26,13 @@ public:
     float maskingShadowing(const Vec3& wo, const Vec3& wi) const {
         return 1.0f / (1.0f + lambda(wo) + lambda(wi));
     }
-    /// A microfacet normal among those visible from `wo` [Heitz 2018, "Sampling the GGX
-    /// Distribution of Visible Normals"].
+    /// Area of the microfacets that look towards a direction, seen from there, per area of the
+    /// surface: its cosine over its masking, and, for directions below the horizon, what looks that
+    /// way [Heitz et al. 2016, "Multiple-Scattering Microfacet BSDFs with the Smith Model"]. That
+    /// of w less that of -w is the cosine of w.
+    float visibleArea(const Vec3& w) const;
+    /// A microfacet normal among those visible from `wo`, which may be below the horizon [Heitz
+    /// 2018, "Sampling the GGX Distribution of Visible Normals"].
     Vec3 sampleVisibleNormal(const Vec3& wo, const Vec2& u) const;
     /// Its density in solid angle (sr^-1).
     float visibleNormalPdf(const Vec3& wo, const Vec3& h) const;

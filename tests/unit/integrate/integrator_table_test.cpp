@@ -2,8 +2,11 @@
 
 #include "sss/base/error.h"
 #include "sss/base/json.h"
+#include "sss/base/warp.h"
 #include "sss/integrate/preprocess.h"
 #include "sss/integrate/renderer.h"
+#include "sss/medium/half_space.h"
+#include "sss/optics/fresnel_moments.h"
 #include "unit/integrate/batches.h"
 #include "unit/integrate/scene_maker.h"
 
@@ -56,6 +59,7 @@ TEST(DiffuseLimit, WhiteFurnace) {
         SceneMaker maker;
         TranslucentMaterial white = grey(0, 5, 1.5);
         white.roughness = roughness;
+        white.singleScattering = false;
         maker.object(BoxShape{DVec3(4)}, maker.material(white));
         maker.light(EnvironmentLight{Rgb(1), {}, 0});
         const World world = maker.world();
@@ -76,9 +80,63 @@ TEST(DiffuseLimit, WhiteFurnace) {
     }
 }
 
+// With the closed form of single scattering the share of each part is the energy convention's, in
+// the mean over the directions towards the camera.
+TEST(DiffuseLimit, SingleScatteringOfTheHalfSpace) {
+    TranslucentMaterial material = grey(0.5, 4, 1.4);
+    material.medium.sigmaA = {0, 0.5, 4};
+    material.medium.g = {0.5, 0, 0.8};
+    SceneMaker maker;
+    maker.object(BoxShape{DVec3(4)}, maker.material(material));
+    maker.light(EnvironmentLight{Rgb(1), {}, 0});
+    const World world = maker.world();
+    const auto optics = makeBodyOptics(world);
+    const auto integrator = findIntegrator("brdf")->make({world, optics, {}});
+    PathCounts counts;
+    DRgb both(0);
+    const testing::Estimate single = testing::batchEstimate(1, 256, [&](Sampler& sampler) {
+        const Vec3 towards = cosineDirection(sampler.next2D());
+        Ray ray;
+        ray.origin = Vec3(0.1f, 0.2f, 2) + 3.0f * towards;
+        ray.direction = -towards;
+        const FilmSample sample = integrator->trace(ray, sampler, counts);
+        both += DRgb(sample.single + sample.diffusion) / (32.0 * 256.0);
+        return DRgb(sample.single);
+    });
+    const double entering = hemisphericalTransmittance(1.4);
+    for (int c = 0; c < 3; ++c) {
+        const ChannelMedium medium = material.medium.channel(c);
+        EXPECT_NEAR(single.mean[c], entering * singleScatterAlbedo(medium, Illumination::Diffuse),
+                    4 * single.error[c]);
+        EXPECT_LT(single.error[c], 0.01 * single.mean[c]);
+        EXPECT_NEAR(both[c], entering * halfSpaceTotals(medium).diffuse, 0.005);
+    }
+}
+
+// No Fresnel, no gloss: what is seen is the reflectance, from wherever.
+TEST(Lambertian, ReflectsTheTotal) {
+    TranslucentMaterial material = grey(0.5, 4, 1.4);
+    SceneMaker maker;
+    maker.object(BoxShape{DVec3(4)}, maker.material(material));
+    maker.light(DirectionalLight{{0, 0, -1}, Rgb(kPiF)});
+    const World world = maker.world();
+    const auto optics = makeBodyOptics(world);
+    const auto integrator = findIntegrator("lambertian")->make({world, optics, {}});
+    for (const Vec3& towards : {Vec3(0, 0, 1), Vec3(0.8f, 0, 0.6f)}) {
+        Ray ray;
+        ray.origin = Vec3(0.1f, 0.2f, 2) + 3.0f * towards;
+        ray.direction = -towards;
+        PathCounts counts;
+        Sampler sampler(1, 0);
+        const FilmSample sample = integrator->trace(ray, sampler, counts);
+        EXPECT_NEAR(sample.diffusion.y, optics[0]->profiles[1]->total(), 1e-6);
+        EXPECT_EQ(sample.surface + sample.single, Rgb(0));
+    }
+}
+
 // The same bytes twice, by every integrator that needs no cache.
 TEST(IntegratorTable, RendersWithoutFields) {
-    for (const char* name : {"brdf", "bssrdf", "volume"}) {
+    for (const char* name : {"brdf", "bssrdf", "lambertian", "volume"}) {
         SceneMaker maker;
         maker.scene.quality.integrator = name;
         maker.scene.camera.position = {0, 0, 9};
