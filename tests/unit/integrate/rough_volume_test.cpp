@@ -69,7 +69,7 @@ TEST(RoughVolume, LightSamplingAsByPathsThatFindTheSky) {
     };
     const Estimate seen = estimate(
         1024, [&](Sampler& sampler) { return parts(ofSky.trace(downTo(kHalfSize), sampler)); });
-    const Estimate sent = estimate(1024, [&](Sampler& sampler) {
+    const Estimate sent = estimate(4096, [&](Sampler& sampler) {
         return kPi * parts(ofSun.trace(cosineDownTo(kHalfSize, sampler), sampler));
     });
     for (int part = 0; part < 3; ++part) {
