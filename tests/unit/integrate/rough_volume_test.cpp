@@ -69,14 +69,14 @@ TEST(RoughVolume, LightSamplingAsByPathsThatFindTheSky) {
     };
     const Estimate seen = estimate(
         1024, [&](Sampler& sampler) { return parts(ofSky.trace(downTo(kHalfSize), sampler)); });
-    const Estimate sent = estimate(4096, [&](Sampler& sampler) {
+    const Estimate sent = estimate(1024, [&](Sampler& sampler) {
         return kPi * parts(ofSun.trace(cosineDownTo(kHalfSize, sampler), sampler));
     });
     for (int part = 0; part < 3; ++part) {
         EXPECT_NEAR(sent.mean[part], seen.mean[part],
                     3 * std::hypot(sent.error[part], seen.error[part]))
             << "part " << part;
-        EXPECT_LT(sent.error[part], 0.05 * seen.mean[part]);
+        EXPECT_LT(sent.error[part], 0.08 * seen.mean[part]);
     }
 }
 
