@@ -14,6 +14,7 @@ JsonValue describe(const ShapeExitance& shape) {
     solved.set("sums", shape.report.layers.sums)
         .set("iterations", shape.report.solve.iterations)
         .set("residual", list(shape.report.solve.residual))
+        .set("localInteractions", shape.report.layers.localInteractions)
         .set("nodeInteractions", shape.report.layers.nodeInteractions)
         .set("pointInteractions", shape.report.layers.pointInteractions)
         .set("sourceInteractions", shape.report.sources.interactions())

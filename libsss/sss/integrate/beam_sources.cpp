@@ -84,10 +84,11 @@ private:
     void place(const Ray& ray, double length, const DRgb& power, BeamSources& out) {
         nodes_.clear();
         rule_.append(length, nodes_);
-        for (const DepthRule::Node& node : nodes_) {
+        for (std::uint32_t k = 0; k < nodes_.size(); ++k) {
+            const DepthRule::Node& node = nodes_[k];
             const DRgb source = power * node.weight * medium_.reducedAlbedo;
             const DVec3 at = DVec3(ray.origin) + DVec3(ray.direction) * node.depthMm;
-            out.sources.push_back({Vec3(back_.transformPoint(at)), Rgb(source)});
+            out.sources.push_back({Vec3(back_.transformPoint(at)), Rgb(source), k});
             out.scattered += source;
         }
     }

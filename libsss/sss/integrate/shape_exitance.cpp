@@ -6,7 +6,7 @@
 namespace sss {
 namespace {
 
-constexpr std::size_t kReceiversPerSum = 32;
+constexpr std::size_t kReceiversPerSum = 512;
 
 // What the profile gives at the points themselves.
 std::vector<Rgb> profileExitance(const BodyField& field, const BodyCloud::View& cloud,
@@ -43,12 +43,12 @@ ShapeExitance solveShape(const World& world, int bodyIndex, const BodyOptics& op
     const std::vector<Rgb> flat = profileExitance(field, cloud, tolerance);
     const BeamSources light = placeBeamSources(world, bodyIndex, cloud, beams, medium);
     const ShapeSolver solver(cloud.cloud, cloud.nodes, medium, cloud.spacingMm,
-                             body.mesh.bounds().diagonal() * 1.01);
+                             body.mesh.bounds().diagonal() * 1.01, tolerance);
     std::vector<DRgb> fluence(flat.size());
     for (std::size_t i = 0; i < flat.size(); ++i) fluence[i] = DRgb(flat[i]) * medium.impedance;
 
     ShapeExitance result;
-    result.report = solver.solve(light.sources, tolerance, fluence);
+    result.report = solver.solve(light.sources, fluence);
     result.correction.reserve(flat.size());
     DRgb all{0}, single{0};
     for (std::size_t i = 0; i < flat.size(); ++i) {

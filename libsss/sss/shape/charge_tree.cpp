@@ -44,6 +44,7 @@ NodeShape shapeOf(std::span<const SurfacePoint> points) {
     if (area > 0) {
         shape.secondMean = static_cast<float>(second / area);
         shape.thirdMean = static_cast<float>(third / area);
+        shape.extent = static_cast<float>(std::cbrt(third / area));
     }
     return shape;
 }

@@ -21,6 +21,7 @@ struct NodeShape {
     float radius = 0;      ///< of the sphere around the centre that holds all points
     float secondMean = 0;  ///< area mean of |d|^2, mm^2
     float thirdMean = 0;   ///< area mean of |d|^3, mm^3
+    float extent = 0;      ///< its cube root, mm; not below the root of secondMean
 };
 
 /// The points below a node: a run, since they stand in the tree's order.

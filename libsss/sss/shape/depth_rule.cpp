@@ -3,6 +3,7 @@
 #include "sss/optics/gauss_legendre.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -14,15 +15,22 @@ constexpr double kLikeExtinction = 1.6;
 // Optical depth of a millionth.
 constexpr double kEnd = 14.0;
 
-// Screening of this part of the extinction and more is strong absorption.
-constexpr double kStrong = 0.25;
-constexpr double kSplitDepth = 1.6;  // optical
+// Screening of this part of the extinction and more is strong absorption: the beam is parted at
+// these optical depths.
+struct Parting {
+    double screening;
+    std::array<double, 2> depths;
+    std::size_t count;
+};
+constexpr Parting kPartings[] = {{0.25, {1.6, 0}, 1}, {0.6, {0.8, 2.2}, 2}};
 
 // Integral of (s - about)^power sigma exp(-sigma s) over [from, to].
 double moment(double sigma, double from, double to, int power, double about) {
-    const double end = std::min(to, from + 40.0 / sigma), width = (end - from) / 4;
+    const double end = std::min(to, from + 40.0 / sigma);
+    const int parts = std::max(1, static_cast<int>(std::ceil(0.1 * sigma * (end - from))));
+    const double width = (end - from) / parts;
     double sum = 0;
-    for (int part = 0; part < 4; ++part)
+    for (int part = 0; part < parts; ++part)
         sum += gauss16(from + part * width, from + (part + 1) * width, [&](double s) {
             double value = sigma * std::exp(-sigma * s);
             for (int k = 0; k < power; ++k) value *= s - about;
@@ -45,8 +53,12 @@ DepthRule::DepthRule(const DiffusionConstants& medium) : extinction_(medium.exti
             groups_.emplace_back();
         Group& group = groups_.back();
         group.channels.push_back(c);
-        if (medium.screening[c] > kStrong * extinction_[c])
-            group.splitMm = kSplitDepth / extinction_[c];
+        for (const Parting& parting : kPartings) {
+            if (medium.screening[c] <= parting.screening * extinction_[c]) continue;
+            group.partedAtMm.clear();
+            for (std::size_t k = 0; k < parting.count; ++k)
+                group.partedAtMm.push_back(parting.depths[k] / extinction_[c]);
+        }
     }
     if (!channels.empty()) reachMm_ = kEnd / extinction_[channels.front()];
     for (const Group& group : groups_)
@@ -85,9 +97,13 @@ void DepthRule::appendStretch(const Group& group, double fromMm, double toMm,
 }
 
 void DepthRule::appendGroup(const Group& group, double lengthMm, std::vector<Node>& nodes) const {
-    const double split = std::min(group.splitMm, lengthMm);
-    if (split > 0) appendStretch(group, 0, split, nodes);
-    if (split < lengthMm) appendStretch(group, split, lengthMm, nodes);
+    double from = 0;
+    for (const double parted : group.partedAtMm) {
+        if (parted >= lengthMm) break;
+        appendStretch(group, from, parted, nodes);
+        from = parted;
+    }
+    appendStretch(group, from, lengthMm, nodes);
 }
 
 void DepthRule::append(double lengthMm, std::vector<Node>& nodes) const {

@@ -43,9 +43,8 @@ struct Rotation {
 
 }  // namespace
 
-GmresReport gmres(const std::function<void(std::span<const DRgb>, std::span<DRgb>)>& apply,
-                  std::span<const DRgb> right, std::span<DRgb> x, double tolerance,
-                  int mostIterations) {
+GmresReport gmres(const MatrixProduct& apply, std::span<const DRgb> right, std::span<DRgb> x,
+                  double tolerance, int mostIterations) {
     GmresReport report;
     const std::size_t n = right.size();
     const DRgb size = lengthOf(right);
@@ -53,7 +52,7 @@ GmresReport gmres(const std::function<void(std::span<const DRgb>, std::span<DRgb
         for (int c = 0; c < 3; ++c)
             if (size[c] == 0) v[c] = 0;
     std::vector<std::vector<DRgb>> basis{std::vector<DRgb>(n)};
-    apply(x, basis[0]);
+    apply(x, quotient(lengthOf(x), size), basis[0]);
     ++report.iterations;
     for (std::size_t i = 0; i < n; ++i) basis[0][i] = right[i] - basis[0][i];
     std::vector<DRgb> rest{lengthOf(basis[0])};
@@ -65,7 +64,7 @@ GmresReport gmres(const std::function<void(std::span<const DRgb>, std::span<DRgb
     while (worst(report.residual) > tolerance && report.iterations < mostIterations) {
         const std::size_t k = columns.size();
         std::vector<DRgb> next(n), column;
-        apply(basis[k], next);
+        apply(basis[k], report.residual, next);
         ++report.iterations;
         for (const std::vector<DRgb>& v : basis) {  // modified Gram-Schmidt
             column.push_back(inner(next, v));

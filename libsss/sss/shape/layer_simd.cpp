@@ -16,6 +16,10 @@ void layersAny(const ChargeTree& tree, const KernelTable& green, const LayerList
                const Rgb& perLength, std::span<const Vec3> receivers, std::span<DRgb> sums) {
     accumulateLayersScalar(tree, green, list, perLength, receivers, sums);
 }
+void expandAny(const ChargeTree& tree, const KernelTable& green, const LayerList& list,
+               LocalExpansion& expansion) {
+    expandLayersScalar(tree, green, list, expansion);
+}
 #else
 
 namespace hn = hwy::HWY_NAMESPACE;
@@ -99,6 +103,71 @@ HWY_ATTR void layersAny(const ChargeTree& tree, const KernelTable& green, const 
     for (std::size_t r = 0; r < receivers.size(); ++r)
         sums[r] += DRgb(totals.lanes[r][0], totals.lanes[r][1], totals.lanes[r][2]);
 }
+
+// An expansion in single precision, as Totals.
+struct Expansion {
+    Lanes value, trace, gradient[3], hessian[6];
+};
+
+HWY_ATTR void expandNode(const ChargeNode& node, const Vec3& v, const KernelTable& green,
+                         Expansion& to) {
+    const Tag d;
+    const KernelTable::Place place = green.placeOf(glm::dot(v, v));
+    const Radial g = radialAt(place);
+    const auto s = hn::Set(d, 2.0f * place.scale);
+    const auto x = hn::Set(d, v.x), y = hn::Set(d, v.y), z = hn::Set(d, v.z);
+    const auto charge = hn::Load(d, node.charge);
+    const auto px = hn::Load(d, node.dipole[0]), py = hn::Load(d, node.dipole[1]),
+               pz = hn::Load(d, node.dipole[2]);
+    const auto xx = hn::Load(d, node.quadrupole[0]), yy = hn::Load(d, node.quadrupole[1]),
+               zz = hn::Load(d, node.quadrupole[2]);
+    // T d row by row.
+    const auto xy = hn::Load(d, node.quadrupole[3]), xz = hn::Load(d, node.quadrupole[4]),
+               yz = hn::Load(d, node.quadrupole[5]);
+    const auto tx = hn::MulAdd(xx, x, hn::MulAdd(xy, y, hn::Mul(xz, z)));
+    const auto ty = hn::MulAdd(xy, x, hn::MulAdd(yy, y, hn::Mul(yz, z)));
+    const auto tz = hn::MulAdd(xz, x, hn::MulAdd(yz, y, hn::Mul(zz, z)));
+    const auto inside = hn::MulAdd(tx, x, hn::MulAdd(ty, y, hn::Mul(tz, z)));
+    const auto along = hn::MulAdd(px, x, hn::MulAdd(py, y, hn::Mul(pz, z)));
+    const auto traces = hn::Add(xx, hn::Add(yy, zz));
+    const auto slope = hn::Mul(s, g.first), bend = hn::Mul(hn::Mul(s, s), g.second);
+    const auto first = hn::MulAdd(slope, hn::Add(along, traces), hn::Mul(bend, inside));
+    to.value = hn::Add(to.value, hn::MulAdd(charge, g.f, first));
+    // Along an axis e: slope (q d + p) + bend (p.d) d, less since d shrinks.
+    const auto common = hn::MulAdd(slope, charge, hn::Mul(bend, along));
+    to.gradient[0] = hn::Sub(to.gradient[0], hn::MulAdd(common, x, hn::Mul(slope, px)));
+    to.gradient[1] = hn::Sub(to.gradient[1], hn::MulAdd(common, y, hn::Mul(slope, py)));
+    to.gradient[2] = hn::Sub(to.gradient[2], hn::MulAdd(common, z, hn::Mul(slope, pz)));
+    to.trace = hn::MulAdd(charge, slope, to.trace);
+    const auto b = hn::Mul(charge, bend), bx = hn::Mul(b, x), by = hn::Mul(b, y);
+    to.hessian[0] = hn::MulAdd(bx, x, to.hessian[0]);
+    to.hessian[1] = hn::MulAdd(by, y, to.hessian[1]);
+    to.hessian[2] = hn::MulAdd(hn::Mul(b, z), z, to.hessian[2]);
+    to.hessian[3] = hn::MulAdd(bx, y, to.hessian[3]);
+    to.hessian[4] = hn::MulAdd(bx, z, to.hessian[4]);
+    to.hessian[5] = hn::MulAdd(by, z, to.hessian[5]);
+}
+
+HWY_ATTR void addLanes(Lanes v, DRgb& sum) {
+    const Tag d;
+    alignas(16) float lanes[4];
+    hn::Store(v, d, lanes);
+    sum += DRgb(lanes[0], lanes[1], lanes[2]);
+}
+
+HWY_ATTR void expandAny(const ChargeTree& tree, const KernelTable& green, const LayerList& list,
+                        LocalExpansion& expansion) {
+    const auto zero = hn::Zero(Tag());
+    Expansion sum{zero, zero, {zero, zero, zero}, {zero, zero, zero, zero, zero, zero}};
+    for (const std::uint32_t n : list.locals)
+        expandNode(tree.charges()[n], tree.shapes()[n].centre - expansion.centre, green, sum);
+    addLanes(sum.value, expansion.value);
+    for (std::size_t k = 0; k < 3; ++k) {
+        addLanes(sum.gradient[k], expansion.gradient[k]);
+        addLanes(sum.trace, expansion.hessian[k]);
+    }
+    for (std::size_t k = 0; k < 6; ++k) addLanes(sum.hessian[k], expansion.hessian[k]);
+}
 #endif
 
 }  // namespace
@@ -109,10 +178,16 @@ HWY_AFTER_NAMESPACE();
 namespace sss {
 
 HWY_EXPORT(layersAny);
+HWY_EXPORT(expandAny);
 
 void accumulateLayers(const ChargeTree& tree, const KernelTable& green, const LayerList& list,
                       const Rgb& perLength, std::span<const Vec3> receivers, std::span<DRgb> sums) {
     HWY_DYNAMIC_DISPATCH(layersAny)(tree, green, list, perLength, receivers, sums);
+}
+
+void expandLayers(const ChargeTree& tree, const KernelTable& green, const LayerList& list,
+                  LocalExpansion& expansion) {
+    HWY_DYNAMIC_DISPATCH(expandAny)(tree, green, list, expansion);
 }
 
 }  // namespace sss

@@ -1,5 +1,6 @@
 #pragma once
 #include "sss/cloud/kernel_table.h"
+#include "sss/cloud/local_expansion.h"
 #include "sss/shape/charge_tree.h"
 
 #include <cstdint>
@@ -9,19 +10,32 @@
 namespace sss {
 
 struct LayerCounts {
-    std::uint64_t sums = 0;  ///< over all points, at all points
-    std::uint64_t nodeInteractions = 0, pointInteractions = 0;
+    std::uint64_t sums = 0;               ///< over all points, at all points
+    std::uint64_t localInteractions = 0;  ///< cell of receivers x node
+    std::uint64_t nodeInteractions = 0;   ///< receiver x node
+    std::uint64_t pointInteractions = 0;  ///< receiver x point
+
+    void add(const LayerCounts& other);
+    std::uint64_t interactions() const {
+        return localInteractions + nodeInteractions + pointInteractions;
+    }
 };
 
-/// What is near and what is far of a cell of receivers.
+/// What a cell of receivers takes: nodes for the whole cell at once, nodes receiver by receiver,
+/// and points.
 struct LayerList {
-    std::vector<std::uint32_t> nodes, points;
+    std::vector<std::uint32_t> locals, nodes, points;
 };
 
 /// The single and double layer of a fluence on the boundary, at a cloud's own points x:
 ///   sum over y of A_y phi_y [ G(x, y) / b + dG/dn_y(x, y) ],
 /// with the moments of a ChargeTree for what is far. The kernel is a table of G(r) regularised over
 /// a sample's cell: finite where x = y, and its gradient, softened alike, gives dG/dn.
+///
+/// The octree is both: its nodes are sources and cells of receivers. What is far from a cell is
+/// added once for all its receivers, as a polynomial of second order (LocalExpansion); what is
+/// nearer is left to the cell's children; small cells take nodes, and at last points, receiver by
+/// receiver.
 ///
 /// Error control: a node is taken whole where a bound of the third order of its expansion, seen
 /// from the nearest place of the receivers' cell, is below a share of what may be missed there.
@@ -37,22 +51,32 @@ public:
     DRgb bruteForce(const Vec3& receiver) const;
 
 private:
-    void collect(std::size_t cell, const Rgb& allowed, LayerList& list,
-                 std::vector<std::uint32_t>& stack) const;
+    struct Walk;  // of one thread
+    bool isSmall(std::size_t node) const;
+    std::vector<Rgb> leastBelow(std::span<const Rgb> allowed) const;
+    /// Adds what `left` and all below it bring to a cell, on top of what its parents took.
+    void descend(std::size_t cell, const LocalExpansion& above, std::span<const std::uint32_t> left,
+                 Walk& walk) const;
+    void finish(std::size_t cell, const LocalExpansion& far, Walk& walk) const;
 
     const ChargeTree& tree_;
     const KernelTable& green_;
     Rgb perLength_;
-    std::vector<std::uint32_t> cells_;  ///< nodes whose points are evaluated together
+    std::vector<std::uint32_t> groups_;  ///< nodes whose points are evaluated together
 };
 
 /// A cell's receivers at most.
 inline constexpr std::size_t kMostLayerReceivers = 32;
-/// Adds the layers of a list's nodes and points at up to kMostLayerReceivers places; chosen at run
+/// Adds a list's nodes and points at up to kMostLayerReceivers places; chosen at run
 /// time for the processor.
 void accumulateLayers(const ChargeTree& tree, const KernelTable& green, const LayerList& list,
                       const Rgb& perLength, std::span<const Vec3> receivers, std::span<DRgb> sums);
-/// The same in plain C++: the reference that the vector code is tested against.
+/// Adds what a list's locals bring around the centre of an expansion.
+void expandLayers(const ChargeTree& tree, const KernelTable& green, const LayerList& list,
+                  LocalExpansion& expansion);
+/// The same in plain C++: the references that the vector code is tested against.
+void expandLayersScalar(const ChargeTree& tree, const KernelTable& green, const LayerList& list,
+                        LocalExpansion& expansion);
 void accumulateLayersScalar(const ChargeTree& tree, const KernelTable& green, const LayerList& list,
                             const Rgb& perLength, std::span<const Vec3> receivers,
                             std::span<DRgb> sums);

@@ -14,9 +14,12 @@ namespace {
 constexpr float kLeastFill = 0.05f, kMostFill = 1.0f;
 // Of the tolerance. Measured on half-lit balls of marble and ketchup, 12 mean free paths wide
 // (shape_solver_test), against a far finer solution: all together add 0.2 to 0.5 of it, RMS.
-constexpr double kLayerShare = 0.5, kSourceShare = 1.0, kResidualShare = 0.1;
+constexpr double kLayerShare = 0.5, kFillShare = 0.25, kSourceShare = 1.0, kResidualShare = 0.1;
 constexpr int kMostIterations = 60;
-constexpr std::size_t kReceiversPerSum = 32;
+// A product's error beyond this share of its own size no longer helps the next.
+constexpr double kCrudest = 0.1;
+// Enough for the sums to take far sources by groups of receivers, few enough for threads to share.
+constexpr std::size_t kReceiversPerSum = 512;
 // Below this part of the brightest fluence nobody asks for relative accuracy.
 constexpr double kDarkest = 1e-6;
 
@@ -28,56 +31,70 @@ KernelTable greenTable(const DRgb& screening, double reachMm, double cellRadiusM
 }  // namespace
 
 ShapeSolver::ShapeSolver(const CloudView& cloud, std::span<const OctreeNode> nodes,
-                         const DiffusionConstants& medium, double spacingMm, double reachMm)
-    : cloud_(cloud), nodes_(nodes), medium_(medium), spacingMm_(spacingMm), reachMm_(reachMm) {
-    measureFill(reachMm);
+                         const DiffusionConstants& medium, double spacingMm, double reachMm,
+                         double tolerance)
+    : cloud_(cloud),
+      nodes_(nodes),
+      medium_(medium),
+      spacingMm_(spacingMm),
+      reachMm_(reachMm),
+      tolerance_(tolerance) {
+    measureFill();
 }
 
-void ShapeSolver::measureFill(double reachMm) {
-    const KernelTable table = greenTable(DRgb(0), reachMm, spacingMm_ / std::sqrt(kPi));
+void ShapeSolver::measureFill() {
+    const KernelTable table = greenTable(DRgb(0), reachMm_, spacingMm_ / std::sqrt(kPi));
     ChargeTree tree(cloud_, nodes_);
     const std::vector<DRgb> one(cloud_.size(), DRgb(1));
     tree.setFluence(one, DRgb(0));
     std::vector<DRgb> angle(cloud_.size());
-    LayerCounts counts;
-    const std::vector<Rgb> allowed(cloud_.size(), Rgb(1e-3f));
-    LayerSum(tree, table, DRgb(0)).atPoints(allowed, angle, counts);
+    const std::vector<Rgb> allowed(cloud_.size(), Rgb(static_cast<float>(kFillShare * tolerance_)));
+    LayerSum(tree, table, DRgb(0)).atPoints(allowed, angle, fillCounts_);
     fill_.reserve(cloud_.size());
     for (const DRgb& a : angle)
         fill_.push_back(std::clamp(static_cast<float>(-a.x), kLeastFill, kMostFill));
 }
 
-ShapeReport ShapeSolver::solve(std::span<const VolumeSource> sources, double tolerance,
-                               std::span<DRgb> fluence) const {
-    ShapeReport report;
+// What the sources alone would make, in an endless medium.
+std::vector<DRgb> ShapeSolver::direct(std::span<const VolumeSource> sources,
+                                      SumCounts& counts) const {
     const std::size_t n = cloud_.size();
-    const KernelTable table = greenTable(medium_.screening, reachMm_, spacingMm_ / std::sqrt(kPi));
-    // What the sources alone would make, in an endless medium.
-    std::vector<DRgb> right(n);
-    {
-        const SourceCloud cloud(sources);
-        const KernelTable near =
-            greenTable(medium_.screening, reachMm_, 0.5 * spacingMm_ / std::sqrt(kPi));
-        const DiffusionSum sum(cloud.view(), cloud.nodes(), near);
-        std::vector<Vec3> places;
-        for (const SurfacePoint& p : cloud_.points) places.push_back(p.position);
+    const KernelTable near =
+        greenTable(medium_.screening, reachMm_, 0.5 * spacingMm_ / std::sqrt(kPi));
+    std::vector<Vec3> places;
+    for (const SurfacePoint& p : cloud_.points) places.push_back(p.position);
+    std::vector<DRgb> fluence(n, DRgb(0));
+    for (const SourceCloud& kind : SourceCloud::byKind(sources)) {
+        const DiffusionSum sum(kind.view(), kind.nodes(), near);
         std::vector<Rgb> values(n);
-        std::vector<SumCounts> counts((n + kReceiversPerSum - 1) / kReceiversPerSum);
+        std::vector<SumCounts> parts((n + kReceiversPerSum - 1) / kReceiversPerSum);
         parallelFor(n, kReceiversPerSum, [&](std::size_t begin, std::size_t end) {
             DiffusionSum::Scratch scratch;
-            sum.evaluate(std::span(places).subspan(begin, end - begin), kSourceShare * tolerance,
+            sum.evaluate(std::span(places).subspan(begin, end - begin), kSourceShare * tolerance_,
                          std::span(values).subspan(begin, end - begin), scratch,
-                         counts[begin / kReceiversPerSum]);
+                         parts[begin / kReceiversPerSum]);
         });
-        for (const SumCounts& c : counts) report.sources.add(c);
-        for (std::size_t i = 0; i < n; ++i) right[i] = DRgb(values[i]) / medium_.diffusionMm;
+        for (const SumCounts& part : parts) counts.add(part);
+        for (std::size_t i = 0; i < n; ++i) fluence[i] += DRgb(values[i]) / medium_.diffusionMm;
     }
+    return fluence;
+}
+
+ShapeReport ShapeSolver::solve(std::span<const VolumeSource> sources,
+                               std::span<DRgb> fluence) const {
+    ShapeReport report;
+    report.layers = fillCounts_;
+    const std::size_t n = cloud_.size();
+    const KernelTable table = greenTable(medium_.screening, reachMm_, spacingMm_ / std::sqrt(kPi));
+    std::vector<DRgb> right = direct(sources, report.sources);
     // Unknowns and equations in units of the local fluence.
     DRgb most{0};
     for (const DRgb& v : fluence) most = glm::max(most, v);
     std::vector<DRgb> scale(n);
     for (std::size_t i = 0; i < n; ++i) {
-        scale[i] = glm::max(glm::max(fluence[i], kDarkest * most), DRgb(1e-30));
+        // On a flat place the sources' field is half of the fluence and more.
+        const DRgb likely = glm::min(fluence[i], 2.0 * right[i]);
+        scale[i] = glm::max(glm::max(likely, kDarkest * most), DRgb(1e-30));
         right[i] /= scale[i];
         fluence[i] /= scale[i];
     }
@@ -91,21 +108,22 @@ ShapeReport ShapeSolver::solve(std::span<const VolumeSource> sources, double tol
     }
     std::vector<Rgb> allowed(n);
     std::vector<DRgb> absolute(n);
-    const auto apply = [&](std::span<const DRgb> in, std::span<DRgb> out) {
+    const auto apply = [&](std::span<const DRgb> in, const DRgb& weight, std::span<DRgb> out) {
         DRgb squares{0};
         for (std::size_t i = 0; i < n; ++i) {
             absolute[i] = in[i] * scale[i];
             squares += in[i] * in[i];
         }
         const DRgb size = glm::sqrt(squares / static_cast<double>(n));
-        for (std::size_t i = 0; i < n; ++i)
-            allowed[i] = Rgb(size * scale[i] * (tolerance * kLayerShare));
+        const DRgb care = glm::min(tolerance_ * kLayerShare / glm::max(weight, DRgb(1e-6)),
+                                   DRgb(std::max(kCrudest, tolerance_ * kLayerShare)));
+        for (std::size_t i = 0; i < n; ++i) allowed[i] = Rgb(size * scale[i] * care);
         tree.setFluence(absolute, perLength);
         layers.atPoints(allowed, out, report.layers);
         for (std::size_t i = 0; i < n; ++i)
             out[i] = out[i] / scale[i] + (static_cast<double>(fill_[i]) + own[i]) * in[i];
     };
-    report.solve = gmres(apply, right, fluence, kResidualShare * tolerance, kMostIterations);
+    report.solve = gmres(apply, right, fluence, kResidualShare * tolerance_, kMostIterations);
     for (std::size_t i = 0; i < n; ++i) fluence[i] *= scale[i];
     return report;
 }

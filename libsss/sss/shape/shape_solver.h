@@ -13,7 +13,7 @@ namespace sss {
 
 struct ShapeReport {
     GmresReport solve;
-    LayerCounts layers;
+    LayerCounts layers;  ///< with the one that measures the fill
     SumCounts sources;
 };
 
@@ -27,26 +27,27 @@ struct ShapeReport {
 class ShapeSolver {
 public:
     /// `cloud` (points, octree) of one closed body must outlive the solver; `spacingMm` is theirs,
-    /// `reachMm` the largest distance within the body.
+    /// `reachMm` the largest distance within the body. `tolerance`: relative to the local fluence.
     ShapeSolver(const CloudView& cloud, std::span<const OctreeNode> nodes,
-                const DiffusionConstants& medium, double spacingMm, double reachMm);
+                const DiffusionConstants& medium, double spacingMm, double reachMm,
+                double tolerance);
 
     /// Fluence at the points, W m^-2, from the guess that it holds: the right order of magnitude
-    /// everywhere sets what may be missed where, and it is where the iteration starts. `tolerance`:
-    /// relative to the local fluence.
-    ShapeReport solve(std::span<const VolumeSource> sources, double tolerance,
-                      std::span<DRgb> fluence) const;
+    /// everywhere sets what may be missed where, and it is where the iteration starts.
+    ShapeReport solve(std::span<const VolumeSource> sources, std::span<DRgb> fluence) const;
     /// Solid angle over 4 pi that the body fills as seen from each point: 1/2 where it is flat.
     std::span<const float> fill() const { return fill_; }
 
 private:
-    void measureFill(double reachMm);
+    void measureFill();
+    std::vector<DRgb> direct(std::span<const VolumeSource> sources, SumCounts& counts) const;
 
     CloudView cloud_;
     std::span<const OctreeNode> nodes_;
     DiffusionConstants medium_;
-    double spacingMm_, reachMm_;
+    double spacingMm_, reachMm_, tolerance_;
     std::vector<float> fill_;
+    LayerCounts fillCounts_;
 };
 
 }  // namespace sss

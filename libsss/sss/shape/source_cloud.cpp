@@ -15,4 +15,16 @@ SourceCloud::SourceCloud(std::span<const VolumeSource> sources) {
     nodes_ = buildOctree(view());
 }
 
+std::vector<SourceCloud> SourceCloud::byKind(std::span<const VolumeSource> sources) {
+    std::vector<std::vector<VolumeSource>> kinds;
+    for (const VolumeSource& source : sources) {
+        if (source.kind >= kinds.size()) kinds.resize(source.kind + 1);
+        kinds[source.kind].push_back(source);
+    }
+    std::vector<SourceCloud> clouds;
+    for (const std::vector<VolumeSource>& kind : kinds)
+        if (!kind.empty()) clouds.emplace_back(kind);
+    return clouds;
+}
+
 }  // namespace sss

@@ -2,6 +2,7 @@
 #include "sss/cloud/octree.h"
 #include "sss/cloud/point_cloud.h"
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -11,13 +12,20 @@ namespace sss {
 struct VolumeSource {
     Vec3 position{};  ///< mm, body space
     Rgb power{0.0f};  ///< W m^-2 mm^2, as of irradiance x area
+    /// Sources of a kind stand at like depths along their beams: their colours differ as the
+    /// light's do, not with depth.
+    std::uint32_t kind = 0;
 };
 
-/// Sources as the sums over points take them: points of unit area.
+/// Sources of one kind as the sums over points take them: points of unit area. A node of the octree
+/// has one place for all channels; of kinds mixed, whose channels stand at different depths, hardly
+/// a node could be taken whole.
 class SourceCloud {
 public:
     /// Sorts them; O(N log N), deterministic.
     explicit SourceCloud(std::span<const VolumeSource> sources);
+    /// One for each kind.
+    static std::vector<SourceCloud> byKind(std::span<const VolumeSource> sources);
     CloudView view() const { return {points_, power_}; }
     std::span<const OctreeNode> nodes() const { return nodes_; }
 

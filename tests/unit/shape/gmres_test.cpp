@@ -32,8 +32,9 @@ struct System {
         }
     }
     GmresReport solve(std::span<DRgb> x, double tolerance, int most = 100) const {
-        return gmres([&](std::span<const DRgb> in, std::span<DRgb> out) { apply(in, out); }, right,
-                     x, tolerance, most);
+        return gmres(
+            [&](std::span<const DRgb> in, const DRgb&, std::span<DRgb> out) { apply(in, out); },
+            right, x, tolerance, most);
     }
 };
 

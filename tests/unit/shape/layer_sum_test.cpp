@@ -53,7 +53,7 @@ TEST(LayerSum, KeepsWhatIsAllowed) {
         }
         EXPECT_LE(worst, allowed);
         EXPECT_LE(std::sqrt(squares / static_cast<double>(checked)), allowed / 3);
-        EXPECT_LT(counts.nodeInteractions + counts.pointInteractions, n * n);
+        EXPECT_LT(counts.interactions(), n * n);
     }
 }
 
@@ -80,6 +80,29 @@ TEST(LayerSum, VectorCodeAgreesWithPlain) {
     accumulateLayersScalar(layers.tree, layers.table, list, Rgb(layers.perLength), places, plain);
     for (std::size_t i = 0; i < 9; ++i)
         for (int c = 0; c < 3; ++c) EXPECT_NEAR(fast[i][c], plain[i][c], 1e-4);
+}
+
+// An expansion is what its nodes add near its centre, by vector code and plain.
+TEST(LayerSum, ExpansionsAreTheNodesSeenFromNearby) {
+    const Layers layers;
+    LayerList list;
+    for (std::uint32_t i = 20; i < 90; ++i) list.locals.push_back(i);
+    const Vec3 centre(2, -20, 14);
+    LocalExpansion fast{.centre = centre}, plain{.centre = centre};
+    expandLayers(layers.tree, layers.table, list, fast);
+    expandLayersScalar(layers.tree, layers.table, list, plain);
+    LayerList same;
+    same.nodes = list.locals;
+    for (const Vec3& away : {Vec3(0), Vec3(0.1f, 0, 0), Vec3(-0.05f, 0.1f, 0.1f)}) {
+        const Vec3 place = centre + away;
+        DRgb exact(0);
+        accumulateLayersScalar(layers.tree, layers.table, same, Rgb(layers.perLength),
+                               std::span(&place, 1), std::span(&exact, 1));
+        for (int c = 0; c < 3; ++c) {
+            EXPECT_NEAR(fast.at(place)[c], plain.at(place)[c], 1e-5 * std::abs(exact[c]) + 1e-7);
+            EXPECT_NEAR(plain.at(place)[c], exact[c], 2e-3 * std::abs(exact[c]) + 1e-6);
+        }
+    }
 }
 
 TEST(LayerSum, SameBytesWithAnyNumberOfThreads) {

@@ -45,14 +45,14 @@ struct Solved {
             const Vec3 normal = decodeUnitVector(p.normal);
             const DRgb power(static_cast<double>(p.areaMm2));
             entered += power;
-            for (const DepthRule::Node& node : nodes)
-                sources.push_back({p.position - normal * static_cast<float>(node.depthMm),
-                                   Rgb(power * node.weight * medium.reducedAlbedo)});
+            for (std::uint32_t k = 0; k < nodes.size(); ++k)
+                sources.push_back({p.position - normal * static_cast<float>(nodes[k].depthMm),
+                                   Rgb(power * nodes[k].weight * medium.reducedAlbedo), k});
         }
         const double reach = 1.01 * mesh.bounds().diagonal();
-        const ShapeSolver solver(cloud.view(), cloud.nodes, medium, cloud.spacingMm, reach);
+        const ShapeSolver solver(cloud.view(), cloud.nodes, medium, cloud.spacingMm, reach, 1e-3);
         fluence.assign(cloud.samples.size(), 0.5 * medium.impedance);
-        report = solver.solve(sources, 1e-3, fluence);
+        report = solver.solve(sources, fluence);
     }
     DRgb exitance(std::size_t i) const { return fluence[i] / medium.impedance; }
     // Mean over the points that `counts` says, weighted by area.
@@ -293,8 +293,8 @@ TEST(ShapeSolver, KeepsItsTolerance) {
         // A guess that is right to a factor of a few, as the profile's is.
         for (DRgb& v : loose) v = glm::max(v * DRgb(0.7, 1.4, 1.0), DRgb(1e-5));
         const ShapeSolver solver(fine.cloud.view(), fine.cloud.nodes, medium, fine.cloud.spacingMm,
-                                 2.02 * radius);
-        solver.solve(fine.sources, 0.02, loose);
+                                 2.02 * radius, 0.02);
+        solver.solve(fine.sources, loose);
         double squares = 0;
         std::size_t count = 0;
         for (std::size_t i = 0; i < loose.size(); ++i) {
