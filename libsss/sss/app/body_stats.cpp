@@ -14,6 +14,8 @@ JsonValue describe(const ShapeExitance& shape) {
     solved.set("sums", shape.report.layers.sums)
         .set("iterations", shape.report.solve.iterations)
         .set("residual", list(shape.report.solve.residual))
+        .set("negative", list(shape.report.negative))
+        .set("gain", shape.gain)
         .set("localInteractions", shape.report.layers.localInteractions)
         .set("nodeInteractions", shape.report.layers.nodeInteractions)
         .set("pointInteractions", shape.report.layers.pointInteractions)

@@ -34,7 +34,8 @@ JsonValue estimatePassOne(const World& world, std::span<const std::unique_ptr<Bo
         bodies.push(std::move(entry));
         points += wanted;
 
-        sampling.spacingMm = std::max(sampling.spacingMm, std::sqrt(area / kTrialPoints));
+        const double wantedMm = sampling.spacingMm;
+        sampling.spacingMm = std::max(wantedMm, std::sqrt(area / kTrialPoints));
         const double start = nowSeconds();
         const SurfaceSamples trial = sampleSurface(body.mesh, sampling);
         const double placed = nowSeconds();
@@ -43,7 +44,8 @@ JsonValue estimatePassOne(const World& world, std::span<const std::unique_ptr<Bo
         IrradianceResult lit =
             lightPoints(*light, static_cast<int>(b), trial, optics, silent, report);
         if (optics[b]->onShape) {
-            const BodyCloud cloud = buildCloud(trial, std::move(lit.irradiance), report);
+            BodyCloud cloud = buildCloud(trial, std::move(lit.irradiance), report);
+            cloud.spacingMm = wantedMm;  // too far apart, nothing would be solved
             shapeCorrection(*light, static_cast<int>(b), trial, lit.beams, optics, cloud.view(),
                             silent, report);
         }

@@ -9,11 +9,14 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace sss {
 namespace {
 
+// More light out of a body than this beyond what scattered there is worth a word.
+constexpr double kGainToTell = 0.01;
 // Single scattering's exitance is smoothed between points and is a small part of what leaves.
 constexpr int kLightPerSingleSample = 2;
 
@@ -146,6 +149,58 @@ BodyCloud buildCloud(const SurfaceSamples& samples, std::vector<Rgb> irradiance,
     return cloud;
 }
 
+namespace {
+
+std::string namesOf(const std::array<bool, 3>& channels) {
+    std::string names;
+    for (std::size_t c = 0; c < 3; ++c)
+        if (channels[c]) names += "RGB"[c];
+    return names;
+}
+
+void describeSolution(const ShapeExitance& shape, const Medium& medium, double spacingMm,
+                      const std::string& name, Reporter& reporter) {
+    const GmresReport& solve = shape.report.solve;
+    const double residual = maxComponent(solve.residual);
+    const auto percent = [](const DRgb& v) {
+        return fmt::format("{:.3g} {:.3g} {:.3g} %", 100 * v.x, 100 * v.y, 100 * v.z);
+    };
+    reporter.info("shape", fmt::format("{}: {} sums, residual {:.2g}; of the light that enters, {} "
+                                       "leave by multiple scattering, {} by single, {} go straight "
+                                       "through, {} are absorbed",
+                                       name, solve.iterations, residual, percent(shape.leaves),
+                                       percent(shape.single), percent(shape.unscattered),
+                                       percent(shape.absorbed)));
+    if (const std::string coarse = namesOf(shape.isTooCoarse); !coarse.empty())
+        reporter.warn("shape",
+                      fmt::format("{}: its points are {:.3g} mm apart, too far for mean "
+                                  "free paths of {:.3g} mm and more: diffusion is by the "
+                                  "profile in {}; set --spacing to refine",
+                                  name, spacingMm, medium.smallestMeanFreePathMm(), coarse));
+    const std::string unsound = namesOf(shape.isUnsound);
+    if (!unsound.empty())
+        reporter.warn(
+            "shape",
+            fmt::format("{}: what was solved on its shape does not keep the light ({:.2g} % more "
+                        "leaves than scatters, residual {:.2g}): diffusion is by the profile in "
+                        "{}; its surface cuts itself, or lies closer to itself than its points, "
+                        "{:.3g} mm apart (mean free path {:.3g} mm); set --spacing to refine",
+                        name, 100 * shape.gain, residual, unsound, spacingMm,
+                        medium.smallestMeanFreePathMm()));
+    else if (shape.gain > kGainToTell)
+        reporter.warn("shape",
+                      fmt::format("{}: {:.2g} % more light leaves than scatters in it; set "
+                                  "--spacing below {:.3g} mm to refine",
+                                  name, 100 * shape.gain, spacingMm));
+    if (unsound.empty() && !solve.converged)
+        reporter.warn("shape", fmt::format("{}: after {} sums the equations hold to {:.2g} only: "
+                                           "its surface cuts itself, or lies closer to itself than "
+                                           "the points' spacing; set --spacing to refine",
+                                           name, solve.iterations, residual));
+}
+
+}  // namespace
+
 std::vector<Rgb> shapeCorrection(const World& world, int body, const SurfaceSamples& samples,
                                  const EnteredBeams& beams,
                                  std::span<const std::unique_ptr<BodyOptics>> optics,
@@ -164,22 +219,7 @@ std::vector<Rgb> shapeCorrection(const World& world, int body, const SurfaceSamp
     std::vector<Rgb> correction = std::move(shape.correction);
     report.unscatteredShare = maxComponent(shape.unscattered);
     own.lookThroughIf(report.unscatteredShare, world.scene().quality.tolerance);
-    const GmresReport& solve = shape.report.solve;
-    const auto percent = [](const DRgb& v) {
-        return fmt::format("{:.3g} {:.3g} {:.3g} %", 100 * v.x, 100 * v.y, 100 * v.z);
-    };
-    reporter.info("shape", fmt::format("{}: {} sums, residual {:.2g}; of the light that enters, {} "
-                                       "leave by multiple scattering, {} by single, {} go straight "
-                                       "through, {} are absorbed",
-                                       report.name, solve.iterations, maxComponent(solve.residual),
-                                       percent(shape.leaves), percent(shape.single),
-                                       percent(shape.unscattered), percent(shape.absorbed)));
-    if (!solve.converged)
-        reporter.warn("shape",
-                      fmt::format("{}: after {} sums the equations hold to {:.2g} only: "
-                                  "its surface cuts itself, or lies closer to itself than "
-                                  "the points' spacing; set --spacing to refine",
-                                  report.name, solve.iterations, maxComponent(solve.residual)));
+    describeSolution(shape, own.material.medium, cloud.spacingMm, report.name, reporter);
     report.shape = std::move(shape);
     return correction;
 }

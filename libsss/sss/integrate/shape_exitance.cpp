@@ -3,10 +3,17 @@
 #include "sss/base/parallel.h"
 #include "sss/integrate/body_field.h"
 
+#include <algorithm>
+
 namespace sss {
 namespace {
 
 constexpr std::size_t kReceiversPerSum = 512;
+// Points farther apart than this many mean free paths see neither their sources nor each other as
+// the integrals would. (By default they are at most 1.5 apart.)
+constexpr double kMostSpacingPerMfp = 4.0;
+// A solution that gives out more than this beyond what scattered is none.
+constexpr double kMostGain = 0.02;
 
 // What the profile gives at the points themselves.
 std::vector<Rgb> profileExitance(const BodyField& field, const BodyCloud::View& cloud,
@@ -37,8 +44,15 @@ ShapeExitance solveShape(const World& world, int bodyIndex, const BodyOptics& op
                          std::span<const Rgb> once) {
     const Body& body = world.bodies()[static_cast<std::size_t>(bodyIndex)];
     const double tolerance = world.scene().quality.tolerance;
-    const DiffusionConstants medium =
+    DiffusionConstants medium =
         diffusionConstants(optics.material.medium, momentsOf(optics.material));
+    ShapeExitance result;
+    for (int c = 0; c < 3; ++c) {
+        if (!medium.scatters[c] || cloud.spacingMm * medium.extinction[c] <= kMostSpacingPerMfp)
+            continue;
+        result.isTooCoarse[static_cast<std::size_t>(c)] = true;
+        medium.scatters[c] = false;  // no sources, nothing to solve
+    }
     const BodyField field(body, optics, cloud, tolerance);
     const std::vector<Rgb> flat = profileExitance(field, cloud, tolerance);
     const BeamSources light = placeBeamSources(world, bodyIndex, cloud, beams, medium);
@@ -47,29 +61,40 @@ ShapeExitance solveShape(const World& world, int bodyIndex, const BodyOptics& op
     std::vector<DRgb> fluence(flat.size());
     for (std::size_t i = 0; i < flat.size(); ++i) fluence[i] = DRgb(flat[i]) * medium.impedance;
 
-    ShapeExitance result;
     result.report = solver.solve(light.sources, fluence);
-    result.correction.reserve(flat.size());
+    const auto exitanceAt = [&](std::size_t i, int c) {
+        return medium.scatters[c] ? fluence[i][c] / medium.impedance[c] : 0.0;
+    };
     DRgb all{0}, single{0};
     for (std::size_t i = 0; i < flat.size(); ++i) {
-        DRgb exitance(0);
-        for (int c = 0; c < 3; ++c)
-            if (medium.scatters[c]) exitance[c] = fluence[i][c] / medium.impedance[c];
         const double area = cloud.cloud.points[i].areaMm2;
-        all += exitance * area;
-        if (!once.empty()) {
-            single += DRgb(once[i]) * area;
-            exitance -= DRgb(once[i]);
-        }
-        result.correction.push_back(Rgb(exitance - DRgb(flat[i])));
+        for (int c = 0; c < 3; ++c) all[c] += exitanceAt(i, c) * area;
+        if (!once.empty()) single += DRgb(once[i]) * area;
     }
+    std::array<bool, 3> keepsProfile = result.isTooCoarse;
     for (int c = 0; c < 3; ++c) {
         if (!(light.entered[c] > 0)) continue;
+        result.unscattered[c] = light.unscattered[c] / light.entered[c];
+        if (result.isTooCoarse[static_cast<std::size_t>(c)]) continue;
+        const auto channel = static_cast<std::size_t>(c);
+        const double gain = (all[c] - light.scattered[c]) / light.entered[c];
+        result.gain = std::max(result.gain, gain);
+        // NaN is unsound too.
+        keepsProfile[channel] = result.isUnsound[channel] =
+            !(gain <= kMostGain && result.report.solve.residual[c] <= tolerance);
+        if (keepsProfile[channel]) continue;
         result.leaves[c] = (all[c] - single[c]) / light.entered[c];
         result.single[c] = single[c] / light.entered[c];
-        result.unscattered[c] = light.unscattered[c] / light.entered[c];
         result.absorbed[c] = 1 - (all[c] + light.unscattered[c]) / light.entered[c];
     }
+    result.correction.assign(flat.size(), Rgb(0));
+    for (std::size_t i = 0; i < flat.size(); ++i)
+        for (int c = 0; c < 3; ++c) {
+            if (keepsProfile[static_cast<std::size_t>(c)]) continue;
+            const double scatteredOnce = once.empty() ? 0.0 : double{once[i][c]};
+            result.correction[i][c] =
+                static_cast<float>(exitanceAt(i, c) - scatteredOnce - double{flat[i][c]});
+        }
     return result;
 }
 

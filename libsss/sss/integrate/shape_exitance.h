@@ -4,6 +4,7 @@
 #include "sss/integrate/body_optics.h"
 #include "sss/shape/shape_solver.h"
 
+#include <array>
 #include <vector>
 
 namespace sss {
@@ -12,6 +13,11 @@ namespace sss {
 struct ShapeExitance {
     std::vector<Rgb> correction;  ///< by point, W m^-2
     ShapeReport report;
+    /// Channels that keep the profile's answer: their points are too far apart to solve for, or
+    /// what was solved does not keep the light. Those have no shares below.
+    std::array<bool, 3> isTooCoarse{}, isUnsound{};
+    /// Of what entered: how much more leaves than scattered, at most; 0 where it is less.
+    double gain = 0;
     /// Shares of the light that entered: multiple and single scattering that leaves, straight
     /// through, and absorbed (what is left).
     DRgb leaves{0}, single{0}, unscattered{0}, absorbed{0};

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace sss {
 namespace {
@@ -124,7 +125,15 @@ ShapeReport ShapeSolver::solve(std::span<const VolumeSource> sources,
             out[i] = out[i] / scale[i] + (static_cast<double>(fill_[i]) + own[i]) * in[i];
     };
     report.solve = gmres(apply, right, fluence, kResidualShare * tolerance_, kMostIterations);
-    for (std::size_t i = 0; i < n; ++i) fluence[i] *= scale[i];
+    DRgb below{0}, total{0};
+    for (std::size_t i = 0; i < n; ++i) {
+        fluence[i] *= scale[i];
+        const double area = cloud_.points[i].areaMm2;
+        below += area * glm::max(-fluence[i], DRgb(0));
+        total += area * glm::abs(fluence[i]);
+        fluence[i] = glm::max(fluence[i], DRgb(0));
+    }
+    report.negative = below / glm::max(total, DRgb(std::numeric_limits<double>::min()));
     return report;
 }
 

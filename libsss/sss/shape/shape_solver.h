@@ -13,6 +13,8 @@ namespace sss {
 
 struct ShapeReport {
     GmresReport solve;
+    /// Share of the fluence that came out below 0, which no fluence is: it was set to 0.
+    DRgb negative{0};
     LayerCounts layers;  ///< with the one that measures the fill
     SumCounts sources;
 };

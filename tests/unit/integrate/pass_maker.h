@@ -14,6 +14,16 @@ struct MadeClouds {
 
     MadeClouds(const World& world, std::span<const std::unique_ptr<BodyOptics>> optics) {
         SilentReporter silent;
+        make(world, optics, silent);
+    }
+    MadeClouds(const World& world, std::span<const std::unique_ptr<BodyOptics>> optics,
+               Reporter& reporter) {
+        make(world, optics, reporter);
+    }
+
+private:
+    void make(const World& world, std::span<const std::unique_ptr<BodyOptics>> optics,
+              Reporter& reporter) {
         for (int b = 0; b < static_cast<int>(world.bodies().size()); ++b) {
             BodyReport& report = reports.emplace_back();
             if (optics[static_cast<std::size_t>(b)]->inDiffuseLimit) {
@@ -21,12 +31,12 @@ struct MadeClouds {
                 continue;
             }
             const SurfaceSamples samples =
-                placePoints(world, b, *optics[static_cast<std::size_t>(b)], {}, silent, report);
-            IrradianceResult light = lightPoints(world, b, samples, optics, silent, report);
+                placePoints(world, b, *optics[static_cast<std::size_t>(b)], {}, reporter, report);
+            IrradianceResult light = lightPoints(world, b, samples, optics, reporter, report);
             clouds.push_back(buildCloud(samples, std::move(light.irradiance), report));
             if (optics[static_cast<std::size_t>(b)]->onShape)
                 clouds.back().correction = shapeCorrection(world, b, samples, light.beams, optics,
-                                                           clouds.back().view(), silent, report);
+                                                           clouds.back().view(), reporter, report);
         }
     }
 };

@@ -257,6 +257,42 @@ TEST(Shape, ShellsOfAGroupAreThoseOfOneMesh) {
     EXPECT_LT(whole.leaves.y, 0.9);
 }
 
+class Warnings final : public Reporter {
+public:
+    void info(std::string_view, std::string_view) override {}
+    void warn(std::string_view, std::string_view sentence) override {
+        sentences.emplace_back(sentence);
+    }
+    void progress(std::string_view, double, double, bool) override {}
+    std::vector<std::string> sentences;
+};
+
+// A box of white and strongly scattering stuff, points as far apart as half of it: unsolvable.
+TEST(Shape, PointsTooFarApartKeepTheProfile) {
+    for (const double scattering : {10.0, 1000.0, 1e8}) {
+        SceneMaker maker;
+        TranslucentMaterial material = onShape(grey(0.001, scattering, 1.4));
+        material.medium.sigmaS.x = 0.5;  // this one can be
+        maker.object(BoxShape{{4, 4, 4}}, maker.material(material));
+        maker.light(EnvironmentLight{Rgb(1), {}, 0});
+        maker.scene.quality.spacingMm = 2;
+        const World world = maker.world();
+        const auto optics = makeBodyOptics(world);
+        Warnings reporter;
+        const MadeClouds made(world, optics, reporter);
+        const ShapeExitance& shape = *made.reports[0].shape;
+        EXPECT_EQ(shape.isTooCoarse, (std::array{false, true, true})) << scattering;
+        for (const Rgb& correction : made.clouds[0].correction) {
+            EXPECT_EQ(correction.y, 0);
+            EXPECT_EQ(correction.z, 0);
+        }
+        EXPECT_GT(shape.absorbed.x, -0.02);
+        ASSERT_EQ(reporter.sentences.size(), 1u);
+        EXPECT_NE(reporter.sentences[0].find("mean free path"), std::string::npos)
+            << reporter.sentences[0];
+    }
+}
+
 // Without an inside there is no shape to solve on: the profile serves.
 TEST(Shape, OpenBodiesKeepTheProfile) {
     SceneMaker maker;

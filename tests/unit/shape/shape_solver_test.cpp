@@ -193,7 +193,8 @@ double slabShare(const DiffusionConstants& m, int c, double thickness, double z)
 }
 
 // Radiative transfer, green channel: a beam along the normal, already inside; shares of it by an
-// independent Monte Carlo of 2 million photons, standard error 0.0004. `straight` passes without scattering.
+// independent Monte Carlo of 2 million photons, standard error 0.0004. `straight` passes without
+// scattering.
 struct KnownSlab {
     const char* medium;
     double perMfp, reflected, passed, straight;
@@ -318,7 +319,7 @@ TEST(ShapeSolver, ThinPartsStayBounded) {
         for (std::size_t i = 0; i < leaf.fluence.size(); ++i)
             for (int c = 0; c < 3; ++c) {
                 EXPECT_TRUE(std::isfinite(leaf.fluence[i][c]));
-                EXPECT_GT(leaf.exitance(i)[c], -2 * scattered[c]);
+                EXPECT_GE(leaf.exitance(i)[c], 0);
                 EXPECT_LT(leaf.exitance(i)[c], 4 * scattered[c]);
             }
     }
