@@ -81,6 +81,7 @@ void recordExitance(RunStats& stats, const ExitanceCounts& total) {
     stats.count("exitanceSites", total.sites);
     stats.count("exitanceGroups", total.groups);
     stats.count("exitanceRefinements", total.refinements);
+    stats.count("exitanceUnsettled", total.unsettled);
     stats.count("sumReceivers", total.sums.receivers);
     stats.count("localInteractions", total.sums.localInteractions);
     stats.count("nodeInteractions", total.sums.nodeInteractions);

@@ -1,12 +1,15 @@
 #include "sss/cloud/diffusion_sum.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 namespace sss {
 namespace {
 
-constexpr int kMostRounds = 8;
+// A round may lower a threshold to a fiftieth: as many as take it from the brightest to the darkest
+// numbers of single precision. A leaf may be that much darker than the middle of its group.
+constexpr int kMostRounds = 24;
 // Receivers whose bounds are taken together: fewer see the near nodes more exactly, more share the
 // walk through the tree.
 constexpr std::uint32_t kReceiversPerLeaf = 8;
@@ -19,6 +22,14 @@ constexpr double kLooseShare = 2.0;
 // Opening rule of the estimate: node radius against distance.
 constexpr float kCoarseOpening = 0.6f;
 constexpr std::uint32_t kRoot = 0;
+
+// Asks for memory that is read soon.
+template <typename T>
+void prefetch(std::span<const T> items) {
+    constexpr std::size_t kCacheLine = 64;
+    const auto* bytes = reinterpret_cast<const char*>(items.data());
+    for (std::size_t i = 0; i < items.size_bytes(); i += kCacheLine) __builtin_prefetch(bytes + i);
+}
 
 bool allBelow(const DRgb& a, const DRgb& b) { return a.x <= b.x && a.y <= b.y && a.z <= b.z; }
 
@@ -70,50 +81,59 @@ DRgb DiffusionSum::estimate(const ReceiverCell& cell, Scratch& scratch, SumCount
     return sum;
 }
 
-void DiffusionSum::open(const OctreeNode& node, CandidateList& fresh, Scratch& scratch,
-                        SumCounts& counts) const {
-    for (std::uint32_t k = 0; k < node.size(); ++k) {
-        const std::uint32_t i = node.first + k;
-        if (!node.isLeaf())
-            fresh.add(nodes_[i], i);
-        else if (const Rgb flux = cloud_.flux(i); !isZero(flux))
-            scratch.points.addPoint(cloud_.points[i].position, flux);
+void DiffusionSum::addPoints(const OctreeNode& leaf, InteractionList& points,
+                             SumCounts& counts) const {
+    for (std::uint32_t i = leaf.first; i < leaf.first + leaf.size(); ++i)
+        if (const Rgb flux = cloud_.flux(i); !isZero(flux))
+            points.addPoint(cloud_.points[i].position, flux);
         else
             ++counts.pointsSkipped;
-    }
 }
 
-ErrorBound DiffusionSum::gather(const CellTest& cell, const CandidateList& from,
-                                CandidateList* pending, Scratch& scratch, SumCounts& counts) const {
-    InteractionList& whole = pending ? scratch.locals : scratch.nodes;
+ErrorBound DiffusionSum::gather(const CellTest& cell, const NodeList& from, NodeList* pending,
+                                Scratch& scratch, SumCounts& counts) const {
     scratch.points.clear();
-    whole.clear();
+    scratch.taken.clear();
+    scratch.leaves.clear();
     if (pending) pending->clear();
     ErrorBound error;
-    const CandidateList* now = &from;
-    for (std::size_t level = 0; !now->empty(); ++level) {
-        CandidateList& fresh = scratch.fresh[level % 2];
+    std::span<const std::uint32_t> now = from.indices();
+    for (std::size_t level = 0; !now.empty(); ++level) {
+        NodeList& fresh = scratch.fresh[level % 2];
         fresh.clear();
-        for (const CandidateList::Block& block : now->blocks()) {
-            counts.nodesVisited += block.count;
-            const Verdict verdict = judge(table_, block, cell, error);
-            for (std::uint32_t i = 0; i < block.count; ++i) {
-                if ((verdict.dark >> i) & 1) {
-                    ++counts.nodesSkipped;
-                    continue;
+        counts.nodesVisited += now.size();
+        while (!now.empty()) {
+            const auto some = now.first(std::min(kMostJudged, now.size()));
+            now = now.subspan(some.size());
+            const Verdict verdict = judge(table_, nodes_, some, cell, error);
+            counts.nodesSkipped += static_cast<std::uint64_t>(std::popcount(verdict.dark));
+            scratch.taken.addWhere(verdict.taken, some);
+            const std::uint64_t all = ~std::uint64_t{0} >> (kMostJudged - some.size());
+            std::uint64_t left = all & ~(verdict.taken | verdict.dark);
+            if (pending) {
+                pending->addWhere(left & verdict.fine, some);
+                left &= ~verdict.fine;
+            }
+            for (; left != 0; left &= left - 1) {
+                const auto i = static_cast<std::size_t>(std::countr_zero(left));
+                const OctreeNode& node = nodes_[some[i]];
+                if (node.isLeaf()) {
+                    scratch.leaves.addRun(some[i], 1);
+                    prefetch(cloud_.points.subspan(node.first, node.size()));
+                    prefetch(cloud_.irradiance.subspan(node.first, node.size()));
+                } else {
+                    fresh.addRun(node.first, node.size());
+                    prefetch(nodes_.subspan(node.first, node.size()));
                 }
-                const OctreeNode& node = nodes_[block.node[i]];
-                if ((verdict.taken >> i) & 1)
-                    whole.addNode(node);
-                else if (pending && (node.isLeaf() || block.radius[i] < cell.radius))
-                    pending->add(block, i);
-                else
-                    open(node, fresh, scratch, counts);
             }
         }
-        now = &fresh;
+        now = fresh.indices();
     }
+    InteractionList& whole = pending ? scratch.locals : scratch.nodes;
+    whole.setNodes(nodes_, scratch.taken.indices());
     whole.pad();
+    for (const std::uint32_t i : scratch.leaves.indices())
+        addPoints(nodes_[i], scratch.points, counts);
     scratch.points.pad();
     return error;
 }
@@ -126,7 +146,7 @@ void DiffusionSum::descend(const ReceiverCell& cell, const Inherited& from, Scra
     }
     // A list for each depth: both halves read their parent's.
     if (scratch.pending.size() <= from.depth) scratch.pending.emplace_back();
-    CandidateList& pending = scratch.pending[from.depth];
+    NodeList& pending = scratch.pending[from.depth];
     Inherited own{&pending, from.far.movedTo(cell.centre), from.error, from.goal, from.depth + 1};
     own.error.add(gather({cell.centre, cell.radius, cell.radius, from.goal.threshold}, *from.left,
                          &pending, scratch, counts));
@@ -143,7 +163,7 @@ void DiffusionSum::finish(const ReceiverCell& leaf, const Inherited& from, Scrat
     const std::span<DRgb> sums = std::span(scratch.sums).subspan(leaf.begin, leaf.size());
     for (std::size_t i = 0; i < sums.size(); ++i) sums[i] = from.far.at(receivers[i]);
     ErrorBound bound = from.error;
-    const CandidateList* left = from.left;
+    const NodeList* left = from.left;
     CellTest cell{leaf.centre, leaf.radius, 0.0f, from.goal.threshold};
     for (int round = 0; round < kMostRounds; ++round) {
         bound.add(gather(cell, *left, nullptr, scratch, counts));
@@ -185,7 +205,7 @@ void DiffusionSum::evaluate(std::span<const Vec3> receivers, double tolerance, s
     for (const std::uint32_t i : scratch.order) scratch.ordered.push_back(receivers[i]);
     scratch.sums.assign(receivers.size(), DRgb(0));
     scratch.root.clear();
-    scratch.root.add(nodes_[kRoot], kRoot);
+    scratch.root.addRun(kRoot, 1);
 
     const ReceiverCell& all = scratch.cells.front();
     Goal goal{tolerance, Rgb(0)};

@@ -4,6 +4,7 @@
 #include "sss/cloud/interactions.h"
 #include "sss/cloud/kernel_table.h"
 #include "sss/cloud/local_expansion.h"
+#include "sss/cloud/node_list.h"
 #include "sss/cloud/octree.h"
 #include "sss/cloud/point_cloud.h"
 #include "sss/cloud/receiver_tree.h"
@@ -54,9 +55,11 @@ public:
     /// Reusable memory of one thread.
     struct Scratch {
         InteractionList locals, nodes, points;
-        CandidateList root;                  ///< the octree's root
-        std::array<CandidateList, 2> fresh;  ///< children of opened nodes
-        std::deque<CandidateList> pending;   ///< left to a cell's halves, one for each depth
+        NodeList root;                  ///< the octree's root
+        NodeList taken;                 ///< nodes that are taken whole
+        NodeList leaves;                ///< whose points are taken one by one
+        std::array<NodeList, 2> fresh;  ///< children of opened nodes
+        std::deque<NodeList> pending;   ///< left to a cell's halves, one for each depth
         std::vector<std::uint32_t> stack;
         std::vector<ReceiverCell> cells;
         std::vector<std::uint32_t> order;  ///< receivers by cell
@@ -79,7 +82,7 @@ private:
     /// What a cell of receivers inherits: the nodes that are left to it, what the others add, and
     /// the bounds of what that left out.
     struct Inherited {
-        const CandidateList* left;
+        const NodeList* left;
         LocalExpansion far;
         ErrorBound error;
         Goal goal;
@@ -95,10 +98,9 @@ private:
     /// Decides about the nodes `from` and those below: which are taken whole (into `locals` where
     /// there are halves to go on with, else `nodes`), which are left to the halves (`pending`), and
     /// which points are taken one by one. Returns the bounds of what is left out.
-    ErrorBound gather(const CellTest& cell, const CandidateList& from, CandidateList* pending,
+    ErrorBound gather(const CellTest& cell, const NodeList& from, NodeList* pending,
                       Scratch& scratch, SumCounts& counts) const;
-    void open(const OctreeNode& node, CandidateList& fresh, Scratch& scratch,
-              SumCounts& counts) const;
+    void addPoints(const OctreeNode& leaf, InteractionList& points, SumCounts& counts) const;
 
     CloudView cloud_;
     std::span<const OctreeNode> nodes_;

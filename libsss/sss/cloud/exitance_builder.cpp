@@ -8,8 +8,8 @@ namespace {
 
 constexpr std::uint8_t kMostLevels = 3;
 constexpr std::size_t kProbes = 6;
-// Of the tolerance, what interpolation may use.
-constexpr double kInterpolationShare = 0.5;
+// Of the tolerance, what interpolation and the sums it starts from may use.
+constexpr double kInterpolationShare = 0.5, kSumShare = 1 - kInterpolationShare;
 // What halving the segments leaves of a linear grid's error; a quadratic one's shrinks faster.
 constexpr double kLeftByHalving = 0.25;
 
@@ -55,6 +55,7 @@ void ExitanceCounts::add(const ExitanceCounts& other) {
     groups += other.groups;
     sites += other.sites;
     refinements += other.refinements;
+    unsettled += other.unsettled;
 }
 
 std::size_t ExitanceBuilder::PositionHash::operator()(const Vec3& p) const {
@@ -74,7 +75,7 @@ Vec3 ExitanceBuilder::positionOf(std::size_t patch, const Vec2& inPatch) const {
 
 void ExitanceBuilder::sumAt(std::span<const Vec3> positions, std::span<Rgb> values,
                             ExitanceCounts& counts) {
-    sum_.evaluate(positions, tolerance_, values, scratch_, counts.sums);
+    sum_.evaluate(positions, tolerance_ * kSumShare, values, scratch_, counts.sums);
     if (correction_ == nullptr) return;
     correction_->addTo(positions, values);
     for (Rgb& value : values) value = glm::max(value, Rgb(0));
@@ -158,12 +159,15 @@ ExitanceGroup ExitanceBuilder::build(std::uint32_t group, ExitanceCounts& counts
         counts.refinements += refined;
         layOut(counts);
         refined = 0;
-        if (level == kMostLevels) break;
-        for (std::size_t p = 0; p < patches_.size(); ++p)
-            if (levels_[p] == level && missOfCoarserGrid(p) * kLeftByHalving > allowed) {
+        for (std::size_t p = 0; p < patches_.size(); ++p) {
+            if (levels_[p] != level || missOfCoarserGrid(p) * kLeftByHalving <= allowed) continue;
+            if (level == kMostLevels) {
+                ++counts.unsettled;
+            } else {
                 ++levels_[p];
                 ++refined;
             }
+        }
     }
     return std::move(group_);
 }

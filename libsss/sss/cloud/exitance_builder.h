@@ -16,6 +16,8 @@ struct ExitanceCounts {
     std::uint64_t groups = 0;       ///< computed, of all that there are
     std::uint64_t sites = 0;        ///< computed
     std::uint64_t refinements = 0;  ///< patches done again with twice the segments
+    /// Patches that would need more sites than kMostLevels refinements give.
+    std::uint64_t unsettled = 0;
 
     void add(const ExitanceCounts& other);
 };
@@ -23,9 +25,11 @@ struct ExitanceCounts {
 /// Computes the exitance of one group of patches, with as many sites as the tolerance asks for.
 ///
 /// First the patches' corners; where these differ most, interpolation is compared with the sum, and
-/// where it misses by more than half the tolerance, all edges are halved. From then on every patch
-/// tells for itself: a new site's distance from what the coarser grid said there is what that grid
-/// missed, and four times what the new one may.
+/// where it misses by more than its share of the tolerance, all edges are halved. From then on
+/// every patch tells for itself: a new site's distance from what the coarser grid said there is
+/// what that grid missed, and four times what the new one may. The sums and the interpolation
+/// between them have half of the tolerance each, so that together they keep it. A patch is refined
+/// three times at most; those that would need more are counted.
 class ExitanceBuilder {
 public:
     /// All must outlive the builder. `tolerance` 0: corners only, no hierarchy.

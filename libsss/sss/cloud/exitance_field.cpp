@@ -23,12 +23,22 @@ ExitanceField::~ExitanceField() {
     for (const auto& entry : groups_) delete entry.load();
 }
 
+std::unique_ptr<ExitanceBuilder> ExitanceField::idleBuilder() const {
+    const std::scoped_lock lock(mutex_);
+    if (idle_.empty())
+        return std::make_unique<ExitanceBuilder>(sites_, sum_, correction_, tolerance_);
+    std::unique_ptr<ExitanceBuilder> builder = std::move(idle_.back());
+    idle_.pop_back();
+    return builder;
+}
+
 std::unique_ptr<ExitanceGroup> ExitanceField::compute(std::uint32_t index) const {
-    ExitanceBuilder builder(sites_, sum_, correction_, tolerance_);
+    std::unique_ptr<ExitanceBuilder> builder = idleBuilder();
     ExitanceCounts spent;
-    auto result = std::make_unique<ExitanceGroup>(builder.build(index, spent));
-    const std::scoped_lock lock(countsMutex_);
+    auto result = std::make_unique<ExitanceGroup>(builder->build(index, spent));
+    const std::scoped_lock lock(mutex_);
     counts_.add(spent);
+    idle_.push_back(std::move(builder));
     return result;
 }
 
@@ -71,7 +81,7 @@ Rgb ExitanceField::at(FaceIndex face, const Vec2& barycentrics) const {
 }
 
 ExitanceCounts ExitanceField::counts() const {
-    const std::scoped_lock lock(countsMutex_);
+    const std::scoped_lock lock(mutex_);
     return counts_;
 }
 

@@ -41,14 +41,17 @@ public:
 private:
     const ExitanceGroup& group(std::uint32_t index) const;
     std::unique_ptr<ExitanceGroup> compute(std::uint32_t index) const;
+    /// A builder that nobody uses, with the memory it has grown; a new one if there is none.
+    std::unique_ptr<ExitanceBuilder> idleBuilder() const;
 
     const DiffusionSum& sum_;
     const PointInterpolator* correction_;
     ExitanceSites sites_;
     double tolerance_;
     mutable std::vector<std::atomic<const ExitanceGroup*>> groups_;
-    mutable std::mutex countsMutex_;
+    mutable std::mutex mutex_;  // of what follows
     mutable ExitanceCounts counts_;
+    mutable std::vector<std::unique_ptr<ExitanceBuilder>> idle_;  // at most one a thread
 };
 
 }  // namespace sss

@@ -1,5 +1,7 @@
 #include "sss/cloud/interactions.h"
 
+#include <algorithm>
+
 namespace sss {
 
 InteractionList::Block& InteractionList::room() {
@@ -20,10 +22,14 @@ void InteractionList::addPoint(const Vec3& position, const Rgb& flux) {
     block.flux[i][3] = 0.0f;
 }
 
-void InteractionList::addNode(const OctreeNode& node) {
-    addPoint(node.centroid, node.flux);
-    Block& block = blocks_[used_ - 1];
-    for (std::size_t k = 0; k < 6; ++k) block.moments[k][block.count - 1] = node.moments[k];
+void InteractionList::setNodes(std::span<const OctreeNode> nodes,
+                               std::span<const std::uint32_t> indices) {
+    clear();
+    for (; !indices.empty(); indices = indices.subspan(std::min(kBlock, indices.size()))) {
+        Block& block = room();
+        block.count = std::min(kBlock, indices.size());
+        pack(nodes, indices.first(block.count), block);
+    }
 }
 
 std::size_t InteractionList::size() const {
@@ -33,12 +39,25 @@ std::size_t InteractionList::size() const {
 void InteractionList::pad() {
     if (used_ == 0) return;
     Block& block = blocks_[used_ - 1];
-    for (std::size_t i = block.count; i < kBlock; ++i) {
+    for (std::size_t i = block.count; i % kPad != 0; ++i) {
         block.x[i] = block.x[0];
         block.y[i] = block.y[0];
         block.z[i] = block.z[0];
         for (auto& m : block.moments) m[i] = 0.0f;
         for (float& f : block.flux[i]) f = 0.0f;
+    }
+}
+
+void packScalar(std::span<const OctreeNode> nodes, std::span<const std::uint32_t> indices,
+                InteractionList::Block& to) {
+    for (std::size_t i = 0; i < indices.size(); ++i) {
+        const OctreeNode& node = nodes[indices[i]];
+        to.x[i] = node.centroid.x;
+        to.y[i] = node.centroid.y;
+        to.z[i] = node.centroid.z;
+        for (std::size_t k = 0; k < 6; ++k) to.moments[k][i] = node.moments[k];
+        for (int c = 0; c < 3; ++c) to.flux[i][c] = node.flux[c];
+        to.flux[i][3] = 0.0f;
     }
 }
 

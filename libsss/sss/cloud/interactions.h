@@ -3,6 +3,7 @@
 #include "sss/cloud/octree.h"
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -13,7 +14,8 @@ namespace sss {
 class InteractionList {
 public:
     static constexpr std::size_t kBlock = 64;
-    /// Padded with dark sources to a whole block.
+    /// Padded with dark sources to a multiple of kPad.
+    static constexpr std::size_t kPad = 16;
     struct alignas(64) Block {
         float x[kBlock], y[kBlock], z[kBlock];
         float moments[6][kBlock];  ///< xx yy zz xy xz yz; untouched in a list of points
@@ -23,10 +25,11 @@ public:
 
     void clear() { used_ = 0; }
     void addPoint(const Vec3& position, const Rgb& flux);
-    void addNode(const OctreeNode& node);
+    /// Makes this the list of the nodes with these indices.
+    void setNodes(std::span<const OctreeNode> nodes, std::span<const std::uint32_t> indices);
     std::span<const Block> blocks() const { return std::span(blocks_).first(used_); }
     std::size_t size() const;
-    /// Fills the last block up.
+    /// Fills the last vector up.
     void pad();
 
 private:
@@ -34,6 +37,13 @@ private:
     std::vector<Block> blocks_;
     std::size_t used_ = 0;
 };
+
+/// Writes the nodes with these indices, at most a block, to the beginning of a block.
+void pack(std::span<const OctreeNode> nodes, std::span<const std::uint32_t> indices,
+          InteractionList::Block& to);
+/// The same in plain C++: the reference that the vector code is tested against.
+void packScalar(std::span<const OctreeNode> nodes, std::span<const std::uint32_t> indices,
+                InteractionList::Block& to);
 
 /// d^T Q d of source i.
 float quadraticForm(const InteractionList::Block& block, std::size_t i, const Vec3& d);

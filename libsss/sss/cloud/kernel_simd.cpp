@@ -1,6 +1,5 @@
 // The vector code of the diffusion sum. Compiled once for every instruction set that Highway knows
 // for this processor family, chosen when it first runs.
-#include "sss/cloud/candidates.h"
 #include "sss/cloud/interactions.h"
 #include "sss/cloud/local_expansion.h"
 
@@ -21,10 +20,6 @@ void accumulateAny(const KernelTable& table, const InteractionList& list, bool w
 }
 void expandAny(const KernelTable& table, const InteractionList& nodes, LocalExpansion& expansion) {
     accumulateScalar(table, nodes, expansion);
-}
-Verdict judgeAny(const KernelTable& table, const CandidateList::Block& block, const CellTest& cell,
-                 ErrorBound& error) {
-    return judgeScalar(table, block, cell, error);
 }
 #else
 
@@ -55,7 +50,7 @@ HWY_ATTR void weigh(const KernelTable& table, const InteractionList::Block& bloc
     const auto lastRow = hn::Set(di, static_cast<std::int32_t>(table.rowCount()) - 1);
     const auto fraction = hn::Set(di, (1 << KernelTable::kShift) - 1);
     const auto unit = hn::Set(d, 1.0f / static_cast<float>(1 << KernelTable::kShift));
-    for (std::size_t i = 0; i < kBlock; i += hn::Lanes(d)) {
+    for (std::size_t i = 0; i < block.count; i += hn::Lanes(d)) {
         const auto dx = hn::Sub(px, hn::Load(d, block.x + i));
         const auto dy = hn::Sub(py, hn::Load(d, block.y + i));
         const auto dz = hn::Sub(pz, hn::Load(d, block.z + i));
@@ -140,16 +135,6 @@ HWY_ATTR void accumulateList(const KernelTable& table, const InteractionList& li
         }
 }
 
-template <class D, class Mask>
-HWY_ATTR std::uint64_t bitsOf(D d, Mask mask) {
-    std::uint8_t bytes[8] = {};
-    hn::StoreMaskBits(d, mask, bytes);
-    std::uint64_t bits = 0;
-    for (std::size_t k = 0; k < (hn::Lanes(d) + 7) / 8; ++k)
-        bits |= std::uint64_t{bytes[k]} << 8 * k;
-    return bits;
-}
-
 // One block's part of an expansion, all channels of a source in one vector.
 HWY_ATTR void expandBlock(const KernelTable& table, const InteractionList::Block& block,
                           const Weights& w, const Steps& steps, LocalExpansion& to) {
@@ -220,75 +205,6 @@ HWY_ATTR void accumulateAny(const KernelTable& table, const InteractionList& lis
         accumulateList<false>(table, list, receivers, sums);
 }
 
-HWY_ATTR Verdict judgeAny(const KernelTable& table, const CandidateList::Block& block,
-                          const CellTest& cell, ErrorBound& error) {
-    const hn::CappedTag<float, kBlock> d;
-    const hn::RebindToSigned<decltype(d)> di;
-    const auto zero = hn::Zero(d);
-    const auto u0 = hn::Set(d, table.offsetMm2());
-    const auto lastRow = hn::Set(di, static_cast<std::int32_t>(table.rowCount()) - 1);
-    const auto reach = hn::Set(d, cell.reach);
-    const float* bounds = table.boundRows();
-    const Rgb scales = shareScale(cell.threshold);
-    decltype(hn::Zero(d)) changing[3] = {zero, zero, zero}, steady[3] = {zero, zero, zero};
-    Verdict verdict;
-    for (std::size_t i = 0; i < block.count; i += hn::Lanes(d)) {
-        const auto dx = hn::Sub(hn::Load(d, block.x + i), hn::Set(d, cell.centre.x));
-        const auto dy = hn::Sub(hn::Load(d, block.y + i), hn::Set(d, cell.centre.y));
-        const auto dz = hn::Sub(hn::Load(d, block.z + i), hn::Set(d, cell.centre.z));
-        const auto distance = hn::Sqrt(hn::MulAdd(dx, dx, hn::MulAdd(dy, dy, hn::Mul(dz, dz))));
-        const auto away = hn::Add(hn::Load(d, block.radius + i), hn::Set(d, cell.radius));
-        const auto nearest = hn::Max(zero, hn::Sub(distance, away));
-        const auto bits = hn::BitCast(di, hn::MulAdd(nearest, nearest, u0));
-        const auto row = hn::Min(
-            hn::Sub(hn::ShiftRight<KernelTable::kShift>(bits), hn::Set(di, table.baseRow())),
-            lastRow);
-        const auto place = hn::Mul(row, hn::Set(di, KernelTable::kBoundFloats));
-        // thirdOrder()
-        const auto extent = hn::Load(d, block.extent + i), both = hn::Add(extent, reach);
-        const auto third =
-            hn::MulSub(hn::Mul(both, hn::Set(d, kReachWeight / 6.0f)), hn::Mul(both, both),
-                       hn::Mul(hn::Mul(extent, hn::Set(d, (kReachWeight - 1.0f) / 6.0f)),
-                               hn::Mul(extent, extent)));
-        const auto offset = hn::Load(d, block.offset + i);
-        const auto second =
-            hn::MulAdd(hn::Load(d, block.difference + i), hn::Set(d, 0.5f), hn::Mul(offset, reach));
-        const bool isGrey = hn::AllTrue(d, hn::Eq(hn::Add(second, offset), zero));
-        auto isDark =
-            hn::Lt(hn::Iota(d, static_cast<float>(i)), hn::Set(d, static_cast<float>(block.count)));
-        auto isTaken = isDark;
-        decltype(hn::Zero(d)) c3[3], c1[3];
-        for (int c = 0; c < 3; ++c) {
-            const auto at = [&](int order) {
-                return hn::GatherIndex(d, bounds, hn::Add(place, hn::Set(di, 3 * order + c)));
-            };
-            const auto flux = hn::Load(d, block.flux[c] + i);
-            const auto threshold = hn::Set(d, cell.threshold[c]);
-            isDark = hn::And(isDark, hn::Le(hn::Mul(flux, at(0)),
-                                            hn::Mul(threshold, hn::Set(d, kNegligibleShare))));
-            c3[c] = hn::Mul(flux, hn::Mul(at(3), third));
-            c1[c] =
-                isGrey ? zero : hn::Mul(flux, hn::MulAdd(at(2), second, hn::Mul(at(1), offset)));
-            isTaken = hn::And(
-                isTaken, hn::Le(hn::MulAdd(c1[c], hn::Set(d, kSteadyWeight), c3[c]), threshold));
-        }
-        isTaken = hn::AndNot(isDark, isTaken);
-        for (int c = 0; c < 3; ++c) {
-            const auto scale = hn::Set(d, scales[c]);
-            const auto part = hn::IfThenElseZero(isTaken, hn::Mul(c3[c], scale));
-            changing[c] = hn::MulAdd(part, part, changing[c]);
-            steady[c] = hn::Add(steady[c], hn::IfThenElseZero(isTaken, hn::Mul(c1[c], scale)));
-        }
-        verdict.taken |= bitsOf(d, isTaken) << i;
-        verdict.dark |= bitsOf(d, isDark) << i;
-    }
-    for (int c = 0; c < 3; ++c) {
-        error.changing[c] += static_cast<double>(hn::GetLane(hn::SumOfLanes(d, changing[c])));
-        error.steady[c] += static_cast<double>(hn::GetLane(hn::SumOfLanes(d, steady[c])));
-    }
-    return verdict;
-}
-
 #endif
 
 const char* targetName() { return hwy::TargetName(HWY_TARGET); }
@@ -302,7 +218,6 @@ namespace sss {
 
 HWY_EXPORT(accumulateAny);
 HWY_EXPORT(expandAny);
-HWY_EXPORT(judgeAny);
 HWY_EXPORT(targetName);
 
 void accumulate(const KernelTable& table, const InteractionList& list, bool withMoments,
@@ -312,11 +227,6 @@ void accumulate(const KernelTable& table, const InteractionList& list, bool with
 
 void accumulate(const KernelTable& table, const InteractionList& nodes, LocalExpansion& expansion) {
     HWY_DYNAMIC_DISPATCH(expandAny)(table, nodes, expansion);
-}
-
-Verdict judge(const KernelTable& table, const CandidateList::Block& block, const CellTest& cell,
-              ErrorBound& error) {
-    return HWY_DYNAMIC_DISPATCH(judgeAny)(table, block, cell, error);
 }
 
 const char* accumulateTarget() { return HWY_DYNAMIC_DISPATCH(targetName)(); }

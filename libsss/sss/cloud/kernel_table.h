@@ -32,10 +32,9 @@ public:
     };
     /// Upper bounds over all distances >= the row's lower edge, per channel: of f, |grad f|, the
     /// norm of the second and of the third derivative tensor of f as a function of a 3-D offset.
-    struct BoundsRow {
+    struct alignas(64) BoundsRow {
         Rgb derivative[4];
     };
-    static_assert(sizeof(BoundsRow) == 12 * sizeof(float));
 
     /// `profiles` may hold the same pointer more than once: channels that share a profile are
     /// evaluated once. Distances up to `reachMm` matter;
@@ -61,8 +60,9 @@ public:
     const BoundsRow& boundsAt(float distanceSquaredMm2) const {
         return bounds_[rowOf(distanceSquaredMm2)];
     }
-    /// All rows of bounds, kBoundFloats a row: [derivative][channel].
-    static constexpr int kBoundFloats = 12;
+    /// All rows of bounds, kBoundFloats in a row: [derivative][channel].
+    static constexpr std::size_t kBoundFloats = 12;
+    static constexpr std::size_t kBoundStride = sizeof(BoundsRow) / sizeof(float);
     const float* boundRows() const { return &bounds_.front().derivative[0].x; }
     const Row* rows() const { return rows_.data(); }
     std::size_t rowCount() const { return rows_.size(); }

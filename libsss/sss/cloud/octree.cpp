@@ -1,6 +1,7 @@
 #include "sss/cloud/octree.h"
 
 #include "sss/base/parallel.h"
+#include "sss/base/parallel_sort.h"
 #include "sss/cloud/morton.h"
 
 #include <algorithm>
@@ -13,6 +14,8 @@
 namespace sss {
 namespace {
 
+constexpr std::size_t kLargeNodes = 512;  // the root and about three levels below
+
 struct Range {
     std::uint32_t begin, end;
     int shift;  // the children differ in code bits [shift, shift + 3)
@@ -24,19 +27,22 @@ Bounds boundsOf(std::span<const SurfacePoint> points) {
     return box;
 }
 
-// Children of a range: runs of equal 3-bit digits at the highest digit in which the range differs.
-std::vector<Range> split(const Range& range, std::span<const std::uint64_t> codes) {
+// Adds the children of a range: runs of equal 3-bit digits at the highest digit in which the range
+// differs. Codes ascend, so that a run's end is found by halving. Returns how many.
+std::uint32_t split(const Range range, std::span<const std::uint64_t> codes,
+                    std::vector<Range>& to) {
     const std::uint64_t difference = codes[range.begin] ^ codes[range.end - 1];
-    if (difference == 0) return {};
+    if (difference == 0) return 0;
     int shift = range.shift;
     while ((difference >> shift) == 0) shift -= 3;
-    std::vector<Range> children;
-    std::uint32_t begin = range.begin;
-    while (begin < range.end) {
-        const std::uint64_t digit = codes[begin] >> shift;
-        std::uint32_t end = begin + 1;
-        while (end < range.end && (codes[end] >> shift) == digit) ++end;
-        children.push_back({begin, end, shift - 3});
+    std::uint32_t children = 0;
+    const auto last = codes.begin() + range.end;
+    for (auto begin = codes.begin() + range.begin; begin != last; ++children) {
+        const std::uint64_t digit = *begin >> shift;
+        const auto end = std::partition_point(
+            begin, last, [&](std::uint64_t code) { return (code >> shift) == digit; });
+        to.push_back({static_cast<std::uint32_t>(begin - codes.begin()),
+                      static_cast<std::uint32_t>(end - codes.begin()), shift - 3});
         begin = end;
     }
     return children;
@@ -129,7 +135,7 @@ std::vector<std::uint32_t> orderOf(std::span<const Vec3> positions, const Tie& t
     });
     std::vector<std::uint32_t> order(positions.size());
     std::iota(order.begin(), order.end(), 0u);
-    std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+    parallelSort(std::span(order), [&](std::uint32_t a, std::uint32_t b) {
         const Vec3 &p = positions[a], &q = positions[b];
         const auto left = std::tie(codes[a], p.x, p.y, p.z);
         const auto right = std::tie(codes[b], q.x, q.y, q.z);
@@ -170,21 +176,24 @@ std::vector<OctreeNode> buildOctree(const CloudView& cloud) {
         const Range range = ranges[n];
         OctreeNode node;
         const std::uint32_t size = range.end - range.begin;
-        std::vector<Range> children;
-        if (size > kLeafPoints) children = split(range, codes);
-        if (children.empty()) {
+        node.first = static_cast<std::uint32_t>(ranges.size());
+        node.count = size > kLeafPoints ? split(range, codes, ranges) : 0;
+        if (node.count == 0) {
             node.first = range.begin;
             node.count = OctreeNode::kLeaf | size;
-        } else {
-            node.first = static_cast<std::uint32_t>(ranges.size());
-            node.count = static_cast<std::uint32_t>(children.size());
-            ranges.insert(ranges.end(), children.begin(), children.end());
         }
         nodes.push_back(node);
     }
-    parallelFor(nodes.size(), 64, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t n = begin; n < end; ++n) summarise(nodes[n], cloud, ranges[n]);
-    });
+    // The first nodes hold most of the points each: one at a time, so that no thread gets them all.
+    const std::size_t large = std::min(nodes.size(), kLargeNodes);
+    const auto summariseFrom = [&](std::size_t first, std::size_t count, std::size_t grain) {
+        parallelFor(count, grain, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t n = first + begin; n < first + end; ++n)
+                summarise(nodes[n], cloud, ranges[n]);
+        });
+    };
+    summariseFrom(0, large, 1);
+    summariseFrom(large, nodes.size() - large, 64);
     return nodes;
 }
 

@@ -1,8 +1,11 @@
-#include "sss/base/parallel.h"
+#include "sss/base/parallel_sort.h"
+#include "sss/base/rng.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
+#include <functional>
 #include <numeric>
 #include <stdexcept>
 #include <vector>
@@ -76,6 +79,21 @@ TEST(ThreadLimit, HoldsWhileItLives) {
         EXPECT_EQ(ThreadLimit::current(), 1u);
     }
     EXPECT_EQ(ThreadLimit::current(), before);
+}
+
+TEST(ParallelSort, AsSortDoesForAnyLengthAndThreads) {
+    for (const unsigned threads : {1u, 2u, 3u}) {
+        const ThreadLimit limit(threads);
+        for (const std::size_t count : {0u, 1u, 32'768u, 32'769u, 200'000u}) {
+            Rng rng(count + 1);
+            std::vector<std::uint64_t> items(count);
+            for (std::uint64_t& item : items) item = rng.next64() % 1000;
+            std::vector<std::uint64_t> expected = items;
+            std::sort(expected.begin(), expected.end());
+            parallelSort(std::span(items), std::less<>());
+            EXPECT_EQ(items, expected) << count;
+        }
+    }
 }
 
 }  // namespace

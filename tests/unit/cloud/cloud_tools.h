@@ -23,11 +23,17 @@ struct Optics {
     Medium medium;
     std::array<std::unique_ptr<Profile>, 3> profiles;
 
-    explicit Optics(std::string_view mediumName, std::string_view profile = "dipole")
-        : Optics(toMedium(*findMeasuredMedium(mediumName)), profile) {}
-    explicit Optics(const Medium& m, std::string_view profile = "dipole") : medium(m) {
+    /// `slabPerMfp`: thickness of the slab in smallest mean free paths, for profiles that need one.
+    explicit Optics(std::string_view mediumName, std::string_view profile = "dipole",
+                    double slabPerMfp = 0)
+        : Optics(toMedium(*findMeasuredMedium(mediumName)), profile, slabPerMfp) {}
+    explicit Optics(const Medium& m, std::string_view profile = "dipole", double slabPerMfp = 0)
+        : medium(m) {
+        ProfileOptions options;
+        if (slabPerMfp > 0) options.slabThicknessMm = slabPerMfp * smallestMfp();
         for (int c = 0; c < 3; ++c)
-            profiles[static_cast<std::size_t>(c)] = makeProfile(profile, medium.channel(c));
+            profiles[static_cast<std::size_t>(c)] =
+                makeProfile(profile, medium.channel(c), options);
     }
     const Profile& profile(int c) const { return *profiles[static_cast<std::size_t>(c)]; }
     std::array<const Profile*, 3> pointers() const {

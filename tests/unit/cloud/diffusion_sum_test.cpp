@@ -7,6 +7,8 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+
 namespace sss {
 namespace {
 
@@ -24,36 +26,76 @@ Rgb halfPlane(const Vec3& p) { return Rgb(p.x > 0 ? 1.0f : 0.0f); }
 // Red light on one half, blue on the other, green on both.
 Rgb redAndBlue(const Vec3& p) { return p.x > 0 ? Rgb(1, 0.5f, 0) : Rgb(0, 0.5f, 1); }
 
+// What comes through a slab lit from above, more on one half.
+Rgb fromAbove(const Vec3& p) {
+    return p.z > 0 ? Rgb(1.0f, 0.9f, 0.7f) * (p.x > 0 ? 1.0f : 0.2f) : Rgb(0.0f);
+}
+// A warm lamp, a cold one and a little light from everywhere.
+Rgb twoLamps(const Vec3& p) {
+    const Vec3 n = glm::normalize(p);
+    return Rgb(0.02f) + Rgb(1, 0.6f, 0.1f) * std::max(0.0f, n.x) +
+           Rgb(0.1f, 0.3f, 1) * std::max(0.0f, n.y - 0.3f);
+}
+
+// Hills and hollows: neighbours by air that are not so along the surface, as on a scanned figure.
+TriangleMesh makeLumps(double radius) {
+    TriangleMesh mesh = makeSphere(radius, radius / 12);
+    for (DVec3& p : mesh.positions) {
+        const DVec3 n = p / radius;
+        p *= 1 + 0.25 * std::sin(5 * n.x + 1) * std::sin(4 * n.y) * std::cos(6 * n.z + n.x);
+    }
+    mesh.normals.clear();
+    return mesh;
+}
+
 struct Case {
     const char* name;
     const char* medium;
     TriangleMesh mesh;
     testing::Light light;
     double spacingPerMfp;
-    bool farFromLight;  // the receivers' channels span many orders of magnitude
+    const char* profile = "dipole";
+    std::size_t receivers = 1024;
 };
 
 std::vector<Case> cases() {
+    // The other profiles take turns over the bodies below.
+    constexpr std::array kProfiles{"better_dipole",
+                                   "normalized_diffusion",
+                                   "photon_beam",
+                                   "normalized_diffusion_perpendicular",
+                                   "multipole",
+                                   "normalized_diffusion_dmfp",
+                                   "photon_beam_single",
+                                   "multipole_transmittance",
+                                   "dipole"};
     std::vector<Case> all;
     for (const auto& [medium, perMfp] :
-         {std::pair{"marble", 0.75}, {"skimmilk", 0.75}, {"ketchup", 0.45}}) {
+         {std::pair{"marble", 0.75}, {"skimmilk", 0.75}, {"ketchup", 0.45}, {"skin1", 0.6}}) {
         const double l = Optics(medium).smallestMfp();
-        all.push_back({"terminator", medium, makeSphere(18 * l), fromOneSide, perMfp, false});
-        all.push_back(
-            {"light edge", medium, makeRectangle(50 * l, 25 * l), halfPlane, perMfp, true});
-        all.push_back(
-            {"red and blue", medium, makeRectangle(40 * l, 25 * l), redAndBlue, perMfp, true});
+        all.push_back({"terminator", medium, makeSphere(18 * l), fromOneSide, perMfp});
+        all.push_back({"light edge", medium, makeRectangle(50 * l, 25 * l), halfPlane, perMfp});
+        all.push_back({"red and blue", medium, makeRectangle(40 * l, 25 * l), redAndBlue, perMfp});
+        const auto add = [&](const char* name, TriangleMesh mesh, testing::Light light) {
+            const char* profile = kProfiles[all.size() % kProfiles.size()];
+            all.push_back({name, medium, std::move(mesh), std::move(light), perMfp, profile, 512});
+        };
+        add("thin box", makeBox({30 * l, 20 * l, 1.5 * l}), fromAbove);
+        add("bar", makeBox({40 * l, 6 * l, 3 * l}), redAndBlue);
+        // The lights take turns as well.
+        const bool isWarmOnly = all.size() % 2 == 0;
+        add("lumps", makeLumps(12 * l), isWarmOnly ? fromOneSide : twoLamps);
     }
     return all;
 }
 
 TEST(DiffusionSum, KeepsItsTolerance) {
     for (const Case& c : cases()) {
-        const Optics optics(c.medium);
+        const Optics optics(c.medium, c.profile, 6.0);
         const LitCloud cloud(c.mesh, c.spacingPerMfp * optics.smallestMfp(), c.light);
         const KernelTable table = cloud.table(optics, c.mesh.bounds().diagonal());
         const DiffusionSum sum(cloud.view(), cloud.nodes, table);
-        const std::vector<Vec3> receivers = placesOn(c.mesh, 1024, 4);
+        const std::vector<Vec3> receivers = placesOn(c.mesh, c.receivers, 4);
         std::vector<DRgb> truth;
         for (const Vec3& p : receivers) truth.push_back(sum.bruteForce(p));
         for (const double tolerance : {0.1, 0.01, 0.001, 0.0001})
@@ -62,8 +104,8 @@ TEST(DiffusionSum, KeepsItsTolerance) {
                 Deviations deviations(tolerance);
                 for (std::size_t i = 0; i < sums.size(); ++i) deviations.add(sums[i], truth[i]);
                 const auto where = ::testing::Message()
-                                   << c.name << ", " << c.medium << ", tolerance " << tolerance
-                                   << ", groups of " << group;
+                                   << c.name << ", " << c.medium << ", " << c.profile
+                                   << ", tolerance " << tolerance << ", groups of " << group;
                 EXPECT_LE(deviations.shareOutside(), 0.001) << where;
                 EXPECT_LE(deviations.largest(), 3 * tolerance) << where;
                 EXPECT_LE(deviations.bias(), 0.1 * tolerance) << where;

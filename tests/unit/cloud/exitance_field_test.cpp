@@ -62,6 +62,7 @@ void expectWithin(const LitBody& body, double tolerance, const char* name) {
                        body.sum.bruteForce(field.sites().position(p.face, p.barycentrics)));
     EXPECT_LE(deviations.shareOutside(), 0.001) << name << " " << tolerance;
     EXPECT_LE(deviations.largest(), 3 * tolerance) << name << " " << tolerance;
+    EXPECT_LE(deviations.bias(), 0.1 * tolerance) << name << " " << tolerance;
 }
 
 TEST(ExitanceField, KeepsItsToleranceAcrossATerminator) {
@@ -76,6 +77,33 @@ TEST(ExitanceField, KeepsItsToleranceAtALightEdge) {
     expectWithin(marble, 0.01, "marble");
     const LitBody skimmilk("skimmilk", makeRectangle(20, 10, 1), 0.75, halfPlane);
     expectWithin(skimmilk, 0.01, "skimmilk");
+}
+
+// Red light on one half, blue on the other, green on both.
+TEST(ExitanceField, KeepsItsToleranceUnderColouredLight) {
+    const LitBody skin("skin1", makeSphere(8), 0.6,
+                       [](const Vec3& p) { return p.x > 0 ? Rgb(1, 0.5f, 0) : Rgb(0, 0.5f, 1); });
+    expectWithin(skin, 0.01, "skin1");
+}
+
+// Light from above comes out below: there everything is dimmer, and of another colour.
+TEST(ExitanceField, KeepsItsToleranceOnAThinPart) {
+    const LitBody plate("marble", makeBox({10, 6, 0.5}), 0.75, [](const Vec3& p) {
+        return p.z > 0 ? Rgb(1, 0.9f, 0.7f) * (p.x > 0 ? 1.0f : 0.2f) : Rgb(0.0f);
+    });
+    expectWithin(plate, 0.01, "marble");
+}
+
+// What three refinements cannot do is counted: here a light edge within the first segment.
+TEST(ExitanceField, CountsWhatItLeavesTooCoarse) {
+    const LitBody body("marble", makeRectangle(20, 10), 0.75, halfPlane);
+    const auto unsettled = [&](double segment) {
+        const ExitanceField field(body.mesh, body.sum, segment, 0.01);
+        for (const Place& p : randomPlaces(body.mesh, 500, 17)) field.at(p.face, p.barycentrics);
+        return field.counts().unsettled;
+    };
+    EXPECT_EQ(unsettled(body.segment()), 0u);
+    EXPECT_GT(unsettled(20 * body.segment()), 0u);
 }
 
 TEST(ExitanceField, KeepsItsToleranceOnFacesFarLargerThanTheMeanFreePath) {

@@ -10,30 +10,46 @@
 #include <gtest/gtest.h>
 #include <hwy/targets.h>
 
+#include <algorithm>
 #include <bit>
+#include <string>
 
 namespace sss {
 namespace {
 
 using testing::Optics;
 
-InteractionList randomList(std::size_t count, std::uint64_t seed, bool withMoments) {
+// All indices of so many nodes, last to first: the order of a list is not that of the nodes.
+std::vector<std::uint32_t> backwards(std::size_t count) {
+    std::vector<std::uint32_t> indices;
+    for (std::size_t i = count; i-- > 0;) indices.push_back(static_cast<std::uint32_t>(i));
+    return indices;
+}
+
+std::vector<OctreeNode> randomSources(std::size_t count, std::uint64_t seed) {
     Rng rng(seed);
-    InteractionList list;
+    std::vector<OctreeNode> nodes(count);
     for (std::size_t i = 0; i < count; ++i) {
-        OctreeNode node;
+        OctreeNode& node = nodes[i];
         node.centroid = Vec3(rng.uniform(), rng.uniform(), rng.uniform()) * 12.0f;
         node.flux = {rng.uniform(), 3 * rng.uniform(), i % 5 == 0 ? 0.0f : rng.uniform()};
+        node.areaMm2 = 1 + rng.uniform();
         const Vec3 a{rng.uniform(), rng.uniform(), rng.uniform()};
         for (int k = 0; k < 3; ++k) node.moments[k] = 0.05f * a[k] * a[k];
         node.moments[3] = 0.05f * a.x * a.y;
         node.moments[4] = 0.05f * a.x * a.z;
         node.moments[5] = 0.05f * a.y * a.z;
-        if (withMoments)
-            list.addNode(node);
-        else
-            list.addPoint(node.centroid, node.flux);
     }
+    return nodes;
+}
+
+InteractionList randomList(std::size_t count, std::uint64_t seed, bool withMoments) {
+    const std::vector<OctreeNode> nodes = randomSources(count, seed);
+    InteractionList list;
+    if (withMoments)
+        list.setNodes(nodes, backwards(count));
+    else
+        for (const OctreeNode& node : nodes) list.addPoint(node.centroid, node.flux);
     list.pad();
     return list;
 }
@@ -85,59 +101,102 @@ void compareExpansionsWithScalar(const char* target) {
     }
 }
 
-CandidateList randomCandidates(std::size_t count, bool coloured) {
+std::vector<OctreeNode> randomCandidates(std::size_t count, bool coloured) {
     Rng rng(count + 7);
-    CandidateList list;
+    std::vector<OctreeNode> nodes(count);
     for (std::size_t i = 0; i < count; ++i) {
-        OctreeNode node;
+        OctreeNode& node = nodes[i];
         node.centroid = Vec3(rng.uniform(), rng.uniform(), rng.uniform()) * 12.0f;
         node.flux = Rgb(rng.uniform(), i % 5 == 0 ? 0.0f : rng.uniform(), 3 * rng.uniform());
         if (i % 7 == 0) node.flux = Rgb(0.0f);
         node.cubicMean = 0.4f * rng.uniform();
-        node.lo = node.centroid - Vec3(0.3f);
-        node.hi = node.centroid + Vec3(0.2f);
+        node.lo = node.centroid - Vec3(rng.uniform(), 0.3f, rng.uniform());
+        node.hi = node.centroid + Vec3(0.2f, rng.uniform(), 0.2f);
+        node.count = i % 3 == 0 ? OctreeNode::kLeaf | 5 : 5;
         if (coloured) {
             node.chromaticOffset = 0.02f * rng.uniform();
             node.chromaticMoment = 0.02f * rng.uniform();
         }
-        list.add(node, static_cast<std::uint32_t>(i));
     }
-    return list;
+    return nodes;
 }
 
 void compareVerdictsWithScalar(const char* target) {
     const Optics optics("skin1");
     const KernelTable table(optics.pointers(), 8, 0.1);
-    std::size_t taken = 0, dark = 0, total = 0;
+    std::size_t taken = 0, dark = 0, fine = 0, total = 0;
     for (const bool coloured : {false, true})
-        for (const float share : {0.0f, 1e-6f, 1e-4f}) {
-            const CandidateList list = randomCandidates(300, coloured);
-            const CellTest cell{{6, 6, 6}, 0.5f, 0.4f, {share, 2 * share, share}};
-            ErrorBound fast, reference;
-            for (const CandidateList::Block& block : list.blocks()) {
-                const Verdict a = judge(table, block, cell, fast);
-                const Verdict b = judgeScalar(table, block, cell, reference);
-                // Fused steps round otherwise: a node may be just on the other side of a limit.
-                EXPECT_LE(std::popcount(a.taken ^ b.taken), 1) << target << " " << share;
-                EXPECT_LE(std::popcount(a.dark ^ b.dark), 1) << target << " " << share;
-                taken += static_cast<std::size_t>(std::popcount(a.taken));
-                dark += static_cast<std::size_t>(std::popcount(a.dark));
-                total += block.count;
+        for (const float share : {0.0f, 1e-6f, 1e-4f})
+            for (const std::size_t count : {1u, 5u, 64u, 300u}) {
+                const std::vector<OctreeNode> nodes = randomCandidates(count, coloured);
+                const std::vector<std::uint32_t> indices = backwards(count);
+                const CellTest cell{{6, 6, 6}, 0.7f, 0.4f, {share, 2 * share, share}};
+                ErrorBound fast, reference;
+                bool anyTaken = false;
+                for (std::size_t i = 0; i < count; i += kMostJudged) {
+                    const auto some =
+                        std::span(indices).subspan(i, std::min(kMostJudged, count - i));
+                    const Verdict a = judge(table, nodes, some, cell, fast);
+                    const Verdict b = judgeScalar(table, nodes, some, cell, reference);
+                    // Fused steps round otherwise: a node may be just on the other side of a limit.
+                    EXPECT_LE(std::popcount(a.taken ^ b.taken), 1) << target << " " << share;
+                    EXPECT_LE(std::popcount(a.dark ^ b.dark), 1) << target << " " << share;
+                    EXPECT_LE(std::popcount(a.fine ^ b.fine), 1) << target << " " << share;
+                    taken += static_cast<std::size_t>(std::popcount(a.taken));
+                    dark += static_cast<std::size_t>(std::popcount(a.dark));
+                    fine += static_cast<std::size_t>(std::popcount(a.fine));
+                    total += some.size();
+                    anyTaken |= b.taken != 0;
+                }
+                for (int c = 0; c < 3; ++c) {
+                    EXPECT_NEAR(fast.changing[c], reference.changing[c],
+                                0.02 * reference.changing[c]);
+                    EXPECT_NEAR(fast.steady[c], reference.steady[c], 0.02 * reference.steady[c]);
+                    EXPECT_EQ(reference.steady.x > 0, coloured && share > 0 && anyTaken);
+                }
             }
-            for (int c = 0; c < 3; ++c) {
-                EXPECT_NEAR(fast.changing[c], reference.changing[c], 0.02 * reference.changing[c]);
-                EXPECT_NEAR(fast.steady[c], reference.steady[c], 0.02 * reference.steady[c]);
-                EXPECT_EQ(reference.steady[c] > 0, coloured && share > 0 && taken > 0);
-            }
-        }
     EXPECT_GT(taken, total / 10) << target;
     EXPECT_GT(dark, total / 20) << target;
+    EXPECT_GT(fine, total / 3) << target;
+    EXPECT_LT(fine, total) << target;
     EXPECT_LT(taken + dark, total) << target;
+}
+
+void comparePackingWithScalar(const char* target) {
+    for (const std::size_t count : {1u, 2u, 3u, 4u, 61u, 64u}) {
+        const std::vector<OctreeNode> nodes = randomSources(count, count);
+        const std::vector<std::uint32_t> indices = backwards(count);
+        InteractionList::Block fast, reference;
+        pack(nodes, indices, fast);
+        packScalar(nodes, indices, reference);
+        for (std::size_t i = 0; i < count; ++i) {
+            EXPECT_EQ(Vec3(fast.x[i], fast.y[i], fast.z[i]),
+                      Vec3(reference.x[i], reference.y[i], reference.z[i]))
+                << target << " " << i << " of " << count;
+            for (std::size_t k = 0; k < 6; ++k)
+                EXPECT_EQ(fast.moments[k][i], reference.moments[k][i]) << target << " " << i;
+            for (std::size_t c = 0; c < 4; ++c)
+                EXPECT_EQ(fast.flux[i][c], reference.flux[i][c]) << target << " " << i;
+        }
+    }
+}
+
+// What this machine can run and must have been compiled: the fallback that every machine runs (as
+// one of its two names), and the steps up from it.
+std::vector<std::string> requiredTargets(bool isEmulated) {
+    std::vector<std::string> required{isEmulated ? "EMU128" : "SCALAR"};
+#if defined(__x86_64__)
+    if (__builtin_cpu_supports("ssse3")) required.emplace_back("SSSE3");
+    if (__builtin_cpu_supports("sse4.2")) required.emplace_back("SSE4");
+    if (__builtin_cpu_supports("avx2")) required.emplace_back("AVX2");
+    if (__builtin_cpu_supports("avx512bw")) required.emplace_back("AVX3");
+#endif
+    return required;
 }
 
 TEST(Accumulate, EveryInstructionSetAgreesWithTheReference) {
     const std::int64_t available = hwy::SupportedTargets();
-    int tested = 0;
+    std::vector<std::string> tested;
     for (std::int64_t bit = 1; bit > 0 && bit <= available; bit <<= 1) {
         if ((available & bit) == 0) continue;
         hwy::SetSupportedTargetsForTest(bit);
@@ -145,11 +204,16 @@ TEST(Accumulate, EveryInstructionSetAgreesWithTheReference) {
         compareWithScalar(hwy::TargetName(bit));
         compareExpansionsWithScalar(hwy::TargetName(bit));
         compareVerdictsWithScalar(hwy::TargetName(bit));
-        ++tested;
+        comparePackingWithScalar(hwy::TargetName(bit));
+        tested.emplace_back(accumulateTarget());  // what ran in fact
     }
     hwy::SetSupportedTargetsForTest(0);
     hwy::GetChosenTarget().DeInit();
-    EXPECT_GT(tested, 0);
+    const auto wasTested = [&](const std::string& target) {
+        return std::find(tested.begin(), tested.end(), target) != tested.end();
+    };
+    for (const std::string& target : requiredTargets(wasTested("EMU128")))
+        EXPECT_TRUE(wasTested(target)) << target;
     compareWithScalar(accumulateTarget());
 }
 
@@ -234,7 +298,7 @@ TEST(Accumulate, SecondMomentsLeaveOutTheThirdOrder) {
             const std::vector<Vec3> at{nodes[0].centroid +
                                        distance * Vec3(s * std::cos(phi), s * std::sin(phi), z)};
             InteractionList list;
-            list.addNode(nodes[0]);
+            list.setNodes(nodes, std::vector<std::uint32_t>{0});
             list.pad();
             std::vector<DRgb> result(1, DRgb(0));
             accumulateScalar(table, list, withMoments, at, result);
