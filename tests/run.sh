@@ -1,9 +1,10 @@
 #!/usr/bin/env bash
 # Every test of the project. Installs what is missing, builds what has changed, runs:
 #   release build and all its tests, the benchmark's plumbing among them; clang-format; all tests
-#   under the address and undefined-behaviour sanitizers.
-# --quick leaves out all but the first; --full adds the parallel parts under the thread sanitizer,
-# 200 kills of each program, a Slurm farm on this machine, and clang-tidy. Exit code 0 only if everything passed.
+#   under the address and undefined-behaviour sanitizers; both programs under the thread sanitizer.
+# --quick leaves out all but the first; --full adds every parallel module under the thread
+# sanitizer, 200 kills of each program, a Slurm farm on this machine, and clang-tidy. Exit code 0
+# only if everything passed.
 set -uo pipefail
 source "$(dirname -- "${BASH_SOURCE[0]}")/../scenes/setup.sh"
 
@@ -43,6 +44,11 @@ build_and_test() {
     sss_build "$@" && run_ctest "$1"
 }
 
+# What runs in parallel, in brief: both programs with three threads, and the module that has them.
+check_threads() {
+    sss_build tsan preprocess render sss_base_test && run_ctest tsan -L threads
+}
+
 check_format() {
     (cd "$SSS_ROOT" && find libsss preprocess render tests -name '*.h' -o -name '*.cpp' |
         sort | xargs clang-format --dry-run --Werror)
@@ -57,9 +63,10 @@ step "release" build_and_test release
 if [[ $scope != quick ]]; then
     step "clang-format" check_format
     step "address sanitizer" build_and_test asan
+    step "thread sanitizer" check_threads
 fi
 if [[ $scope == full ]]; then
-    step "thread sanitizer" build_and_test tsan parallel_tests
+    step "all parallel modules" build_and_test tsan parallel_tests
     step "200 kills" /usr/bin/python3 "$SSS_ROOT/tests/cli/kill_test.py" 200
     step "farm" /usr/bin/python3 "$SSS_ROOT/tests/cli/farm_test.py"
     step "clang-tidy" /usr/bin/python3 "$SSS_ROOT/tests/tidy.py" "$SSS_ROOT" "$SSS_ROOT/build/release"

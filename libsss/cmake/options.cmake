@@ -32,19 +32,17 @@ endif()
 
 find_program(SSS_CCACHE ccache)
 if(SSS_CCACHE)
-  set(CMAKE_CXX_COMPILER_LAUNCHER ${SSS_CCACHE})
-  if(SSS_PRECOMPILE)
-    set(CMAKE_CXX_COMPILER_LAUNCHER
-      ${CMAKE_COMMAND} -E env CCACHE_SLOPPINESS=pch_defines,time_macros ${SSS_CCACHE})
-  endif()
+  set(CMAKE_CXX_COMPILER_LAUNCHER
+    ${CMAKE_COMMAND} -E env CCACHE_SLOPPINESS=pch_defines,time_macros ${SSS_CCACHE})
 endif()
 
-# sss_precompile(TARGET header...): the headers that most files of a target spend their time on.
+# sss_precompile(TARGET header...): the headers that most files of a target spend their time on. Tests
+# always; the library only where SSS_PRECOMPILE says so, so that a missing include is seen.
 function(sss_precompile target)
-  if(SSS_PRECOMPILE)
+  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
     target_compile_options(${target} PRIVATE $<$<BOOL:${SSS_CCACHE}>:-fpch-preprocess>)
-    target_precompile_headers(${target} PRIVATE
-      <algorithm> <filesystem> <functional> <memory> <optional> <span> <string> <vector>
-      <glm/glm.hpp> <fmt/format.h> ${ARGN})
   endif()
+  target_precompile_headers(${target} PRIVATE
+    <algorithm> <filesystem> <functional> <memory> <optional> <span> <string> <vector>
+    <glm/glm.hpp> <fmt/format.h> ${ARGN})
 endfunction()
