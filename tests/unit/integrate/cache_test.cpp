@@ -156,7 +156,7 @@ TEST(SceneFingerprint, NamesExactlyWhatChanged) {
              auto& m = std::get<TranslucentMaterial>(s.materials[0].material);
              m.roughness = 0.4;
              m.surfaceReflection = m.singleScattering = m.multipleScattering = false;
-             m.energy = EnergyConvention::Raw;
+             m.energy = EnergyConvention::Jensen;
          },
          {}},
         {"eta",
