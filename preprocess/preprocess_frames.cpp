@@ -55,15 +55,18 @@ void printEstimate(const JsonValue& estimate, bool json) {
 
 class FramePreprocessor {
 public:
-    FramePreprocessor(const PreprocessOptions& options, Reporter& reporter, RunStats& stats)
+    FramePreprocessor(const PreprocessOptions& options, TerminalReporter& log, Reporter& reporter,
+                      RunStats& stats)
         : options_(options),
+          log_(log),
           reporter_(reporter),
           stats_(stats),
           scenes_(
               options.scene, options.metersPerUnit,
               [&](Scene& scene) { applyOverrides(scene, options); }, reporter),
           isFolder_(isFolderName(options.cache)),
-          chain_({isFolder_ ? options.cache : std::filesystem::path(),
+          // An estimate leaves no folder behind.
+          chain_({isFolder_ && !options.printEstimate ? options.cache : std::filesystem::path(),
                   {options.maxPoints},
                   false,
                   true,
@@ -73,19 +76,32 @@ public:
     void run() {
         const std::vector<int> frames = options_.frames.empty() ? std::vector{1} : options_.frames;
         if (options_.printEstimate) {
-            const World world(scenes_.at(frames.front()), reporter_);
-            printEstimate(estimatePassOne(world, makeBodyOptics(world)), options_.json);
+            printEstimate(estimate(frames), options_.json);
             return;
         }
         if (!isFolder_)
             for (const int frame : frames) requireWritable(fileOf(frame));
-        for (const int frame : frames) preprocess(frame);
+        for (std::size_t i = 0; i < frames.size(); ++i) {
+            log_.beginFrame(frames[i], i + 1, frames.size());
+            preprocess(frames[i]);
+        }
         stats_.value("frames", std::move(table_));
     }
 
 private:
     std::filesystem::path fileOf(int frame) const {
         return frameName(options_.cache.string(), frame);
+    }
+
+    JsonValue estimate(const std::vector<int>& frames) {
+        PassOneEstimate sum;
+        for (const int frame : frames) {
+            const Scene scene = scenes_.at(frame);
+            bool sameWorld = false;
+            const std::shared_ptr<const World> world = scenes_.world(scene, sameWorld);
+            if (!sameWorld) sum.add(*world, scenes_.reference(scene));
+        }
+        return sum.total();
     }
 
     void preprocess(int number) {
@@ -128,6 +144,7 @@ private:
     }
 
     const PreprocessOptions& options_;
+    TerminalReporter& log_;
     Reporter& reporter_;
     RunStats& stats_;
     SceneFrames scenes_;
@@ -148,7 +165,7 @@ void preprocessFrames(const PreprocessOptions& options) {
     const ThreadLimit threads(options.threads);
     for (const auto& output : {options.stats, options.exportPly})
         if (!output.empty()) requireWritable(output);
-    FramePreprocessor(options, reporter, stats).run();
+    FramePreprocessor(options, log, reporter, stats).run();
     stats.value("threads", ThreadLimit::current());
     if (!options.stats.empty()) stats.writeStats(options.stats);
     if (options.strict) log.requireNoWarnings();

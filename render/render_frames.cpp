@@ -171,8 +171,10 @@ std::filesystem::path named(const std::filesystem::path& pattern, int frame) {
 
 class FrameRenderer {
 public:
-    FrameRenderer(const RenderOptions& options, Reporter& reporter, RunStats& stats)
+    FrameRenderer(const RenderOptions& options, TerminalReporter& log, Reporter& reporter,
+                  RunStats& stats)
         : options_(options),
+          log_(log),
           reporter_(reporter),
           stats_(stats),
           scenes_(
@@ -191,8 +193,10 @@ public:
     void run() {
         const std::vector<int> frames = options_.frames.empty() ? std::vector{1} : options_.frames;
         for (const int number : frames) requireWritableOutputs(frameOf(number));
-        for (std::size_t i = 0; i < frames.size(); ++i)
+        for (std::size_t i = 0; i < frames.size(); ++i) {
+            log_.beginFrame(frames[i], i + 1, frames.size());
             render(frameOf(frames[i]), i + 1 == frames.size());
+        }
         recordExitance(stats_, exitance_.counts());
         stats_.value("frames", std::move(table_));
     }
@@ -297,6 +301,7 @@ private:
     }
 
     const RenderOptions& options_;
+    TerminalReporter& log_;
     Reporter& reporter_;
     RunStats& stats_;
     SceneFrames scenes_;
@@ -319,7 +324,7 @@ void renderFrames(const RenderOptions& options) {
     OnceReporter reporter(log);
     const ThreadLimit threads(options.threads);
     if (!options.stats.empty()) requireWritable(options.stats);
-    FrameRenderer(options, reporter, stats).run();
+    FrameRenderer(options, log, reporter, stats).run();
     stats.value("threads", ThreadLimit::current());
     if (!options.stats.empty()) stats.writeStats(options.stats);
     if (options.strict) log.requireNoWarnings();

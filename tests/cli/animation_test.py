@@ -234,14 +234,37 @@ class Animation(CliTest):
         self.assertEqual((stats["diffuseLimitBodies"], stats["passOneSkipped"]), (2, 2))
 
     def test_changing_medium(self):
+        """No light comes back to a box by itself: what its medium reflects lights nothing."""
         scene = self.write_scene(
-            quality={"tolerance": 0.1, "bounces": 0},
+            quality={"tolerance": 0.1, "bounces": 4},
             materials={"stone": {"type": "translucent", "sigmaSPrimePerMm": 2.5,
                                  "sigmaAPerMm": keys((1, 0.002), (3, 0.02))}})
         rows = self.same_frames(scene, "1-2")
         for stage in ("points", "irradiance", "octree"):
             self.assertTrue(rows[2]["ball", stage])
         self.assertFalse(rows[2]["ball", "exitance"])
+
+    def test_medium_that_lights_its_own_body(self):
+        """Light comes back from a floor: what the body reflects counts, and nothing else of it."""
+        floor = {"name": "floor", "shape": "rectangle", "width": 30, "height": 30,
+                 "material": "floor", "transform": [{"rotate": {"axis": [1, 0, 0], "degrees": -90}},
+                                                    {"translate": [0, -4.1, 0]}]}
+        box = {"name": "ball", "shape": "box", "size": [7, 8, 6], "material": "stone"}
+
+        def explained(**changes):
+            scene = self.write_scene(
+                objects=[box, floor], quality={"tolerance": 0.1, "bounces": 4, "spacing": 1},
+                materials={"floor": {"type": "lambertian", "reflectance": 0.8},
+                           "stone": {"type": "translucent", "sigmaSPrimePerMm": 2,
+                                     "sigmaAPerMm": 0.01, **changes}})
+            return self.assert_ok(self.preprocess(scene, "-o", "c/", "--explain")).out
+        explained()
+        for change in ({"surfaceReflection": False}, {"singleScattering": False},
+                       {"roughness": 0.5}, {"sigmaSPrimePerMm": 4, "sigmaAPerMm": 0.02}):
+            self.assertIn("ball: irradiance reused", explained(**change), change)
+        for change in ({"sigmaAPerMm": 0.1}, {"eta": 1.4}):
+            self.assertIn("ball: irradiance made: its medium refracts or reflects otherwise",
+                          explained(**change), change)
 
     def bend(self, frames):
         for n in frames:
@@ -383,6 +406,10 @@ class Animation(CliTest):
                 damaged = bytearray(whole[path])
                 damaged[at] ^= 4
                 path.write_bytes(damaged)
+                if path.suffix == ".ssi":
+                    self.assert_refused(
+                        BAD_INPUT, 'no irradiance for "ball" in frame 1: its file there cannot be',
+                        self.render, scene, "--cache", "c/", "--cache-only", "-o", "c.exr")
                 if path.suffix == ".ssp":  # asked for when its irradiance is not there
                     next(p for p in stages if p.suffix == ".ssi").unlink()
                 result = self.assert_ok(self.render(scene, "--cache", "c/", "-o", "b.exr"))
@@ -414,6 +441,28 @@ class Animation(CliTest):
         self.assert_refused(BAD_INPUT, "the lights are others", self.render, scene, "--frames", 2,
                             "--cache", "a.01.ssc", "-o", "c.exr")
 
+    def test_estimate_of_frames(self):
+        """Counts stages that frames share once, and makes nothing."""
+        def estimate(scene, frames):
+            return json.loads(self.assert_ok(self.preprocess(
+                scene, "--frames", frames, "-o", "none/", "--print-estimate", "--json")).out)
+        lamp = {**LAMP, "transform": [{"rotate": {"axis": [0, 1, 0],
+                                                  "degrees": keys((1, 0), (10, 90))}}]}
+        lit = self.write_scene("lit.json", lights=[lamp, SKY])
+        bent = self.bend((1, 2, 3))
+        for scene in (lit, bent):
+            one, all_three = estimate(scene, "1"), estimate(scene, "1-3")
+            self.assertEqual(one["points"], all_three["points"])
+            self.assertEqual(one["memoryBytes"], all_three["memoryBytes"])
+        self.write("bar.0003.obj", bar(0.8, segments=7))  # points of its own
+        self.assertGreater(estimate(bent, "1-3")["points"], 1.9 * one["points"])
+        self.assertFalse((self.folder / "none").exists())
+        # At least what lies in the cache, and not many times that.
+        self.assert_ok(self.preprocess(bent, "--frames", "1", "-o", "c/"))
+        stored = sum(path.stat().st_size for path in (self.folder / "c").glob("*.ss*"))
+        self.assertGreater(one["memoryBytes"], stored)
+        self.assertLess(one["memoryBytes"], 5 * stored)
+
     def test_estimate_and_progress(self):
         scene = self.write_scene()
         estimate = json.loads(self.preprocess(scene, "--print-estimate", "--json").out)
@@ -422,7 +471,9 @@ class Animation(CliTest):
         points = stats["counts"]["points"]
         self.assertAlmostEqual(estimate["points"] / points, 1, delta=0.25)
         self.assertGreater(estimate["seconds"], 0)
-        for how, is_line in (("json", lambda line: "fraction" in json.loads(line)),
+        place = {"frame": 1, "position": 1, "frames": 1}
+        for how, is_line in (("json", lambda line: "fraction" in json.loads(line)
+                              and place.items() <= json.loads(line).items()),
                              ("none", lambda line: False)):
             result = self.assert_ok(self.preprocess(scene, "-o", "a.ssc", "--progress", how))
             others = [line for line in result.err.splitlines()

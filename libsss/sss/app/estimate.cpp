@@ -1,5 +1,8 @@
 #include "sss/app/estimate.h"
 
+#include "sss/app/placed_on.h"
+#include "sss/integrate/scene_fingerprint.h"
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -18,47 +21,63 @@ double nowSeconds() {
 
 }  // namespace
 
-JsonValue estimatePassOne(const World& world, std::span<const std::unique_ptr<BodyOptics>> optics) {
+PassOneEstimate::Trial PassOneEstimate::tryOut(const World& light, int bodyIndex,
+                                               std::span<const std::unique_ptr<BodyOptics>> optics,
+                                               double wanted, double spacingMm) const {
     SilentReporter silent;
-    const auto light = world.inLightSpace();
-    double points = 0, seconds = 0;
-    JsonValue bodies = JsonValue::array();
+    const auto b = static_cast<std::size_t>(bodyIndex);
+    const Body& body = light.bodies()[b];
+    SamplerOptions sampling;
+    sampling.spacingMm = std::max(spacingMm, std::sqrt(body.mesh.area() / kTrialPoints));
+    const double start = nowSeconds();
+    const SurfaceSamples trial = sampleSurface(body.mesh, sampling);
+    const double placed = nowSeconds();
+    BodyReport report;
+    describePoints(body, *optics[b], trial.size(), report);
+    IrradianceResult lit = lightPoints(light, bodyIndex, trial, optics, silent, report);
+    if (optics[b]->onShape) {
+        BodyCloud cloud = buildCloud(trial, std::move(lit.irradiance), report);
+        cloud.spacingMm = spacingMm;  // too far apart, nothing would be solved
+        shapeCorrection(light, bodyIndex, trial, lit.beams, optics, cloud.view(), silent, report);
+    }
+    const auto count = static_cast<double>(trial.size());
+    return {placed - start + std::max(0.0, wanted - count) * kSecondsPerPoint,
+            (nowSeconds() - placed) * wanted / count};
+}
+
+void PassOneEstimate::add(const World& world, const World* reference) {
+    const auto optics = makeBodyOptics(world);
+    std::unique_ptr<const World> light;  // made when needed
+    double inFrame = 0;
     for (std::size_t b = 0; b < optics.size(); ++b) {
         const Body& body = world.bodies()[b];
-        SamplerOptions sampling;
-        sampling.spacingMm = pointSpacingMm(world, body, *optics[b]);
-        const double area = body.mesh.area();
-        const auto wanted = static_cast<double>(expectedPointCount(area, sampling));
-        JsonValue entry = JsonValue::object();
-        entry.set("name", body.name).set("points", wanted).set("spacingMm", sampling.spacingMm);
-        bodies.push(std::move(entry));
-        points += wanted;
-
-        const double wantedMm = sampling.spacingMm;
-        sampling.spacingMm = std::max(wantedMm, std::sqrt(area / kTrialPoints));
-        const double start = nowSeconds();
-        const SurfaceSamples trial = sampleSurface(body.mesh, sampling);
-        const double placed = nowSeconds();
-        BodyReport report;
-        describePoints(body, *optics[b], trial.size(), report);
-        IrradianceResult lit =
-            lightPoints(*light, static_cast<int>(b), trial, optics, silent, report);
-        if (optics[b]->onShape) {
-            BodyCloud cloud = buildCloud(trial, std::move(lit.irradiance), report);
-            cloud.spacingMm = wantedMm;  // too far apart, nothing would be solved
-            shapeCorrection(*light, static_cast<int>(b), trial, lit.beams, optics, cloud.view(),
-                            silent, report);
+        const TriangleMesh* placed = placedOn(reference, body, b);
+        const double spacing = pointSpacingMm(world, body, *optics[b]);
+        const auto wanted = static_cast<double>(expectedPoints(world, body, *optics[b], placed));
+        const BodyInputs inputs = bodyInputs(world, static_cast<int>(b), optics, spacing, placed);
+        inFrame += wanted;
+        const auto [trial, isNew] = trials_.try_emplace(pointsFingerprint(inputs).hex());
+        if (isNew) {
+            if (!light) light = world.inLightSpace();
+            trial->second = tryOut(*light, static_cast<int>(b), optics, wanted, spacing);
+            points_ += wanted;
+            seconds_ += trial->second.secondsToPlace;
+            JsonValue entry = JsonValue::object();
+            entry.set("name", body.name).set("points", wanted).set("spacingMm", spacing);
+            bodies_.push(std::move(entry));
         }
-        const double done = nowSeconds();
-        const auto count = static_cast<double>(trial.size());
-        seconds += placed - start + (done - placed) * wanted / count +
-                   std::max(0.0, wanted - count) * kSecondsPerPoint;
+        if (lit_.insert(shapeFingerprint(inputs).hex()).second)
+            seconds_ += trial->second.secondsToLight;
     }
+    mostPoints_ = std::max(mostPoints_, inFrame);
+}
+
+JsonValue PassOneEstimate::total() const {
     JsonValue estimate = JsonValue::object();
-    estimate.set("points", points)
-        .set("memoryBytes", points * static_cast<double>(kBytesPerPoint))
-        .set("seconds", seconds)
-        .set("bodies", std::move(bodies));
+    estimate.set("points", points_)
+        .set("memoryBytes", mostPoints_ * static_cast<double>(kBytesPerPoint))
+        .set("seconds", seconds_)
+        .set("bodies", bodies_);
     return estimate;
 }
 

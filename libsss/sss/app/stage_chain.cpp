@@ -1,6 +1,7 @@
 #include "sss/app/stage_chain.h"
 
 #include "sss/app/body_stats.h"
+#include "sss/app/placed_on.h"
 #include "sss/app/stage_state.h"
 #include "sss/base/require_memory.h"
 #include "sss/integrate/diffuse_limit.h"
@@ -15,18 +16,6 @@ namespace {
 // What stages keep of a point in memory, while pass 1 is at other bodies: itself, its cell and its
 // share of the octree.
 constexpr std::uint64_t kBytesPerPointKept = 190;
-
-// The mesh on which a body's points are placed, if not its own: in the reference frame it has the
-// same faces, moved.
-const TriangleMesh* placedOn(const World* reference, const Body& body, std::size_t index) {
-    if (reference == nullptr || index >= reference->bodies().size()) return nullptr;
-    const Body& other = reference->bodies()[index];
-    const TriangleMesh& mesh = other.mesh;
-    if (other.name != body.name || mesh.faces != body.mesh.faces ||
-        mesh.positions == body.mesh.positions)
-        return nullptr;
-    return &mesh;
-}
 
 // Far more points than a body can want, had it not been for its limit.
 void warnOfScale(const World& world, const Body& body, const BodyOptics& optics,
@@ -68,7 +57,7 @@ void StageChain::begin(std::shared_ptr<const World> world, const World* referenc
         auto stage = std::make_unique<BodyStage>();
         stage->placedOn = placedOn(reference, body, b);
         stage->inputs =
-            bodyInputs(*now_->world, static_cast<int>(b),
+            bodyInputs(*now_->world, static_cast<int>(b), now_->optics,
                        pointSpacingMm(*now_->world, body, *now_->optics[b]), stage->placedOn);
         stage->points = pointsFingerprint(stage->inputs);
         stage->light = lightFingerprint(stage->inputs);

@@ -228,11 +228,8 @@ void StageChain::write(std::size_t b, Stage kind, const BodyReport& report,
     if (!folder_) return;
     const auto timer = stats_.seconds("write");
     const BodyStage& stage = *stages_[b];
-    const Fingerprint& made = kind == Stage::Points       ? stage.points
-                              : kind == Stage::Correction ? stage.shape
-                                                          : stage.light;
     try {
-        CacheWriter writer(folder_->file(kind, made));
+        CacheWriter writer(folder_->file(kind, stage.madeFrom(kind)));
         fill(writer);
         addMetadata(writer, describeBody(*now_->world, static_cast<int>(b), report, stage.inputs));
         writer.commit();
@@ -245,6 +242,10 @@ void StageChain::write(std::size_t b, Stage kind, const BodyReport& report,
 std::string StageChain::whyNot(std::size_t b, Stage kind) const {
     const BodyInputs& inputs = stages_[b]->inputs;
     const std::string& name = now_->world->bodies()[b].name;
+    std::error_code ignored;
+    if (folder_ &&
+        std::filesystem::exists(folder_->file(kind, stages_[b]->madeFrom(kind)), ignored))
+        return "its file there cannot be used";
     if (b < before_.size()) {
         const std::string text = differences(inputs, before_[b]->inputs, keysOf(kind));
         if (!text.empty()) return text;

@@ -28,6 +28,11 @@ struct StageChain::BodyStage {
 
     // Why a stage was made for this frame; empty if it was not.
     std::string whyPoints, whyLight, whyOctree, whyShape;
+
+    /// What a stage's file is called by.
+    const Fingerprint& madeFrom(Stage kind) const {
+        return kind == Stage::Points ? points : kind == Stage::Correction ? shape : light;
+    }
 };
 
 }  // namespace sss

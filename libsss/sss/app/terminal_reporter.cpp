@@ -97,6 +97,11 @@ void TerminalReporter::progress(std::string_view phase, double fraction, double 
     if (done) phase_.clear();
 }
 
+void TerminalReporter::beginFrame(int number, std::size_t position, std::size_t frames) {
+    const std::lock_guard lock(mutex_);
+    frame_ = {number, position, frames};
+}
+
 std::size_t TerminalReporter::warningCount() const {
     const std::lock_guard lock(mutex_);
     return warnings_;
@@ -120,6 +125,10 @@ void TerminalReporter::printLine(std::string_view level, std::string_view module
 
 void TerminalReporter::printJson(std::string_view phase, double fraction, double secondsLeft) {
     JsonValue event = JsonValue::object();
+    if (frame_)
+        event.set("frame", frame_->number)
+            .set("position", static_cast<double>(frame_->position))
+            .set("frames", static_cast<double>(frame_->frames));
     event.set("phase", phase).set("fraction", fraction);
     if (secondsLeft >= 0) event.set("secondsLeft", secondsLeft);
     const std::string line = dump(event, -1) + '\n';

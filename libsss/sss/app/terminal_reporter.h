@@ -26,7 +26,8 @@ struct TerminalOptions {
 
 /// The log of both programs: one line an event. On a terminal progress is a bar with the time left
 /// that redraws itself; elsewhere it is a PROGRESS line at most every 2 s, for phases over 1 s
-/// only; as JSON {"phase", "fraction", "secondsLeft"}, also at a phase's end.
+/// only; as JSON {"frame", "position", "frames", "phase", "fraction", "secondsLeft"}, also at a
+/// phase's end.
 class TerminalReporter final : public Reporter {
 public:
     explicit TerminalReporter(TerminalOptions options = {});
@@ -37,6 +38,9 @@ public:
     void info(std::string_view module, std::string_view sentence) override;
     void warn(std::string_view module, std::string_view sentence) override;
     void progress(std::string_view phase, double fraction, double secondsLeft, bool done) override;
+
+    /// What is worked at: the number of a frame, the `position`th (from 1) of `frames`.
+    void beginFrame(int number, std::size_t position, std::size_t frames);
 
     std::size_t warningCount() const;
     /// For --strict, once the work is done: throws Error{Strict} if there was any warning.
@@ -53,6 +57,11 @@ private:
     std::string phase_;  ///< that the next two speak of
     double phaseBegan_ = 0, lastPrinted_ = 0;
     bool isPhasePrinted_ = false;
+    struct FramePlace {
+        int number;
+        std::size_t position, frames;
+    };
+    std::optional<FramePlace> frame_;
     std::size_t warnings_ = 0;
     mutable std::mutex mutex_;
 };

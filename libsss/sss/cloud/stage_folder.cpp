@@ -55,7 +55,7 @@ std::optional<CacheFile> StageFolder::open(Stage stage, const Fingerprint& made,
     try {
         return CacheFile::open(path);
     } catch (const Error& error) {
-        reporter.warn("cache", fmt::format("cannot be used and is made anew: {}", error.what()));
+        reporter.warn("cache", fmt::format("a stage cannot be used: {}", error.what()));
         return {};
     }
 }

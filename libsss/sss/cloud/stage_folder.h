@@ -30,7 +30,7 @@ public:
     const std::filesystem::path& path() const { return folder_; }
     std::filesystem::path file(Stage stage, const Fingerprint& made) const;
     /// The stage's file, verified; none if it is not there, or if it is damaged, which is said in a
-    /// warning: it is made anew.
+    /// warning.
     std::optional<CacheFile> open(Stage stage, const Fingerprint& made, Reporter& reporter) const;
     /// The files of a stage, the newest first.
     std::vector<std::filesystem::path> all(Stage stage) const;

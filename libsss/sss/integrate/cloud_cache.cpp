@@ -28,7 +28,7 @@ std::vector<BodyInputs> worldInputs(const World& world,
                                     std::span<const std::unique_ptr<BodyOptics>> optics) {
     std::vector<BodyInputs> inputs;
     for (std::size_t b = 0; b < optics.size(); ++b)
-        inputs.push_back(bodyInputs(world, static_cast<int>(b),
+        inputs.push_back(bodyInputs(world, static_cast<int>(b), optics,
                                     pointSpacingMm(world, world.bodies()[b], *optics[b])));
     return inputs;
 }

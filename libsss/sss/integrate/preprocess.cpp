@@ -3,6 +3,7 @@
 #include "sss/base/error.h"
 #include "sss/cloud/surface_sampler.h"
 #include "sss/integrate/integrator_table.h"
+#include "sss/integrate/interreflection.h"
 #include "sss/integrate/irradiance.h"
 #include "sss/integrate/single_exitance.h"
 
@@ -91,10 +92,25 @@ SurfaceSamples placePoints(const World& world, int bodyIndex, const BodyOptics& 
     return samples;
 }
 
+namespace {
+
+// As pass 1 of a body sees all bodies. What its fingerprint has not in it is black, so that not
+// even a ray that meets its own surface by rounding can tell.
+std::vector<std::unique_ptr<BodyOptics>> opticsInLight(
+    const World& world, int body, std::span<const std::unique_ptr<BodyOptics>> optics) {
+    std::vector<std::unique_ptr<BodyOptics>> seen;
+    for (const auto& each : optics) seen.push_back(std::make_unique<BodyOptics>(*each));
+    if (!mayComeBack(world, body)) seen[static_cast<std::size_t>(body)]->diffuseAlbedo = Rgb(0);
+    return seen;
+}
+
+}  // namespace
+
 IrradianceResult lightPoints(const World& world, int body, const SurfaceSamples& samples,
                              std::span<const std::unique_ptr<BodyOptics>> optics,
                              Reporter& reporter, BodyReport& report) {
-    const PathTracer tracer(world, optics, {});
+    const auto seen = opticsInLight(world, body, optics);
+    const PathTracer tracer(world, seen, {});
     const bool wantsBeams = optics[static_cast<std::size_t>(body)]->onShape;
     IrradianceResult light = computeIrradiance(world, body, samples, tracer, reporter, wantsBeams);
     report.irradianceNoise = light.pointNoise;

@@ -1,6 +1,7 @@
 #include "sss/integrate/scene_fingerprint.h"
 
 #include "sss/base/error.h"
+#include "sss/integrate/interreflection.h"
 #include "sss/integrate/irradiance.h"
 
 #include <algorithm>
@@ -143,17 +144,37 @@ Fingerprint lightsOf(const World& world) {
     return h.finish();
 }
 
-// What a material does to light that comes from it to a body: that of emitters always, that of the
+using Optics = std::span<const std::unique_ptr<BodyOptics>>;
+
+// A body in its diffuse limit (Bsdf::BodyShading): all that pass 1 reads of a medium.
+void addDiffuseLimit(Hasher& h, const BodyOptics& optics) {
+    h.add("diffuse limit").add(optics.material.medium.eta);
+    add(h, optics.diffuseAlbedo);
+}
+
+const BodyOptics& opticsOf(const World& world, int object, Optics optics) {
+    std::size_t b = 0;
+    while (std::ranges::find(world.bodies()[b].objects, object) == world.bodies()[b].objects.end())
+        ++b;
+    return *optics[b];
+}
+
+// What an object does to light that comes from it to a body: that of emitters always, that of the
 // others if light is followed from surface to surface.
-void addReflection(Hasher& h, const World& world, const Material& material) {
-    if (std::holds_alternative<EmitterMaterial>(material) || world.scene().quality.bounces > 0)
+void addReflection(Hasher& h, const World& world, std::size_t object, Optics optics) {
+    const Material& material = world.material(world.scene().objects[object].material);
+    if (!std::holds_alternative<EmitterMaterial>(material) && world.scene().quality.bounces == 0)
+        return;
+    if (std::holds_alternative<TranslucentMaterial>(material))
+        addDiffuseLimit(h, opticsOf(world, static_cast<int>(object), optics));
+    else
         std::visit(MaterialHasher{h}, material);
 }
 
-Fingerprint mediumOf(const World& world, const Body& body) {
+Fingerprint mediumOf(const World& world, int body, const BodyOptics& optics) {
     Hasher h;
-    h.add(world.materialOf(body).medium.eta);
-    addReflection(h, world, world.material(body.material));
+    h.add(optics.material.medium.eta);
+    if (mayComeBack(world, body)) addDiffuseLimit(h, optics);
     return h.finish();
 }
 
@@ -168,7 +189,7 @@ Fingerprint shapeOf(const TranslucentMaterial& material, double tolerance) {
 
 // All objects, where they stand relative to the first body, and what the others are made of. The
 // body itself counts with its place only: its mesh and medium are inputs of their own.
-Fingerprint surroundingsOf(const World& world, int body) {
+Fingerprint surroundingsOf(const World& world, int body, Optics optics) {
     Hasher h;
     const Body& own = world.bodies()[static_cast<std::size_t>(body)];
     for (std::size_t k = 0; k < world.scene().objects.size(); ++k) {
@@ -177,14 +198,14 @@ Fingerprint surroundingsOf(const World& world, int body) {
         h.add(std::uint64_t{isOwn});
         if (isOwn) continue;
         h.add(world.mesh(k).content);
-        addReflection(h, world, world.material(world.scene().objects[k].material));
+        addReflection(h, world, k, optics);
     }
     return h.finish();
 }
 
 }  // namespace
 
-BodyInputs bodyInputs(const World& world, int bodyIndex, double spacingMm,
+BodyInputs bodyInputs(const World& world, int bodyIndex, Optics optics, double spacingMm,
                       const TriangleMesh* placedOn) {
     const Body& body = world.bodies()[static_cast<std::size_t>(bodyIndex)];
     const QualitySettings& quality = world.scene().quality;
@@ -198,12 +219,13 @@ BodyInputs bodyInputs(const World& world, int bodyIndex, double spacingMm,
                       sampling.finish()});
     addMesh(form, body.mesh);
     inputs.push_back({"form", "it has another shape", form.finish()});
-    inputs.push_back({"medium", "the medium of its material is another", mediumOf(world, body)});
+    inputs.push_back({"medium", "its medium refracts or reflects otherwise",
+                      mediumOf(world, bodyIndex, *optics[static_cast<std::size_t>(bodyIndex)])});
     inputs.push_back(
         {"lights", "the lights are others, or stand elsewhere around it", lightsOf(world)});
     inputs.push_back({"volumes", "the volumes in space are others", volumesOf(world)});
     inputs.push_back({"surroundings", "it stands elsewhere, or other objects of the scene differ",
-                      surroundingsOf(world, bodyIndex)});
+                      surroundingsOf(world, bodyIndex, optics)});
     light.add(static_cast<std::uint64_t>(irradianceSamplesFor(quality)))
         .add(static_cast<std::uint64_t>(quality.bounces));
     inputs.push_back(

@@ -1,7 +1,10 @@
 #pragma once
 #include "sss/base/hash.h"
+#include "sss/integrate/body_optics.h"
 #include "sss/world/world.h"
 
+#include <memory>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -19,11 +22,12 @@ struct InputFingerprint {
 using BodyInputs = std::vector<InputFingerprint>;
 
 /// Everything that the cached points and irradiance of a body depend on, and nothing else: camera
-/// and film are not among it, and of the medium only what light notices before it enters (with
-/// bounces, what the surface reflects). Places are relative to the first body (World's light
-/// space). `placedOn`: the mesh that the points were placed on, if not the body's own
-/// (carried_points.h).
-BodyInputs bodyInputs(const World& world, int body, double spacingMm,
+/// and film are not among it, and of media only what light notices that has not entered yet: the
+/// index, and of those that it may meet between its bounces the diffuse limit. Places are relative
+/// to the first body (World's light space). `placedOn`: the mesh that the points were placed on, if
+/// not the body's own (carried_points.h).
+BodyInputs bodyInputs(const World& world, int body,
+                      std::span<const std::unique_ptr<BodyOptics>> optics, double spacingMm,
                       const TriangleMesh* placedOn = nullptr);
 
 /// What the exitance of a body depends on beside those.

@@ -36,7 +36,7 @@ BodyInputs inputsOf(const Scene& scene) {
     SilentReporter silent;
     const World world(scene, silent);
     const auto optics = makeBodyOptics(world);
-    return bodyInputs(world, 0, pointSpacingMm(world, world.bodies()[0], *optics[0]));
+    return bodyInputs(world, 0, optics, pointSpacingMm(world, world.bodies()[0], *optics[0]));
 }
 
 VolumeSettings ballOfFog() {
@@ -71,8 +71,7 @@ TEST(SceneFingerprint, KnowsVolumes) {
     const auto look = [&](const VolumeSettings& volume) {
         Scene scene = smallScene().scene;
         scene.volumes = {volume};
-        SilentReporter silent;
-        for (const InputFingerprint& input : bodyInputs(World(scene, silent), 0, 0.7))
+        for (const InputFingerprint& input : inputsOf(scene))
             if (input.key == "volumes") seen.insert(input.value.hex());
     };
     look(ballOfFog());
@@ -82,6 +81,60 @@ TEST(SceneFingerprint, KnowsVolumes) {
         look(volume);
     }
     EXPECT_EQ(seen.size(), std::size(changes) + 1);
+}
+
+// Of its own medium, and of a neighbour's, the body that pass 1 is for knows what may reach it.
+TEST(SceneFingerprint, KnowsMediaByWhatComesBack) {
+    const auto withMedium = [](SceneMaker maker, std::size_t material, double sigmaA) {
+        std::get<TranslucentMaterial>(maker.scene.materials[material].material).medium.sigmaA.z =
+            sigmaA;
+        return lightFingerprint(inputsOf(maker.scene));
+    };
+    const auto knows = [&](const SceneMaker& maker, std::size_t material) {
+        return !(withMedium(maker, material, 1) == withMedium(maker, material, 2));
+    };
+    SceneMaker alone = smallScene();
+    alone.scene.objects.pop_back();
+    alone.scene.quality.bounces = 4;
+    EXPECT_FALSE(knows(alone, 0));
+    SceneMaker inFog = alone;
+    inFog.scene.volumes.push_back(ballOfFog());
+    EXPECT_TRUE(knows(inFog, 0));
+    SceneMaker bent = alone;
+    const TemporaryFolder folder;
+    std::ofstream(folder / "a.obj") << "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\n"
+                                       "f 2 3 4\nf 1 4 3\n";
+    bent.scene.objects[0].shape = MeshFileShape{folder / "a.obj"};
+    EXPECT_TRUE(knows(bent, 0));
+    SceneMaker byLamp = alone;
+    byLamp.object(RectangleShape{20, 20}, byLamp.material(EmitterMaterial{}),
+                  testing::moved({0, 0, -6}));
+    EXPECT_FALSE(knows(byLamp, 0));
+    SceneMaker onFloor = smallScene();
+    for (const int bounces : {0, 1, 2}) {
+        onFloor.scene.quality.bounces = bounces;
+        EXPECT_EQ(knows(onFloor, 0), bounces == 2);
+    }
+    SceneMaker two = alone;
+    two.object(BoxShape{DVec3(2)}, two.material(measured("Ketchup")), testing::moved({9, 0, 0}));
+    for (const int bounces : {0, 1, 2}) {
+        two.scene.quality.bounces = bounces;
+        EXPECT_EQ(knows(two, 0), bounces == 2);
+        EXPECT_EQ(knows(two, two.scene.materials.size() - 1), bounces > 0);
+    }
+}
+
+// A medium scaled as a whole reflects the same, and so lights all bodies the same.
+TEST(SceneFingerprint, KnowsNothingOfTheMediumsScale) {
+    SceneMaker maker = smallScene();
+    maker.scene.quality.bounces = 4;
+    const auto before = lightFingerprint(inputsOf(maker.scene));
+    auto& medium = std::get<TranslucentMaterial>(maker.scene.materials[0].material).medium;
+    medium.sigmaA *= 4;  // powers of two are exact
+    medium.sigmaS *= 4;
+    EXPECT_EQ(lightFingerprint(inputsOf(maker.scene)), before);
+    medium.sigmaA *= 4;
+    EXPECT_NE(lightFingerprint(inputsOf(maker.scene)), before);
 }
 
 TEST(SceneFingerprint, NamesExactlyWhatChanged) {
@@ -98,9 +151,14 @@ TEST(SceneFingerprint, NamesExactlyWhatChanged) {
          },
          {}},
         {"film", [](Scene& s) { s.film.samples = 7, s.film.width = 99; }, {}},
-        {"roughness of the boundary",
-         [](Scene& s) { std::get<TranslucentMaterial>(s.materials[0].material).roughness = 0.4; },
-         {"medium"}},
+        {"all that light notices when it comes out only",
+         [](Scene& s) {
+             auto& m = std::get<TranslucentMaterial>(s.materials[0].material);
+             m.roughness = 0.4;
+             m.surfaceReflection = m.singleScattering = m.multipleScattering = false;
+             m.energy = EnergyConvention::Jensen;
+         },
+         {}},
         {"eta",
          [](Scene& s) { std::get<TranslucentMaterial>(s.materials[0].material).medium.eta = 1.4; },
          {"medium"}},
@@ -113,8 +171,14 @@ TEST(SceneFingerprint, NamesExactlyWhatChanged) {
         {"medium",
          [](Scene& s) {
              std::get<TranslucentMaterial>(s.materials[0].material).medium.sigmaA.z = 1;
+             s.quality.bounces = 2;
          },
-         {"medium"}},
+         {"medium", "irradiance"}},
+        {"medium, which does not come back in one bounce",
+         [](Scene& s) {
+             std::get<TranslucentMaterial>(s.materials[0].material).medium.sigmaA.z = 1;
+         },
+         {}},
         {"spacing", [](Scene& s) { s.quality.spacingMm = 0.8; }, {"sampling"}},
         {"seed", [](Scene& s) { s.quality.seed = 5; }, {"sampling"}},
         {"light samples", [](Scene& s) { s.quality.irradianceSamples = 24; }, {"irradiance"}},
