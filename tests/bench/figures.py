@@ -169,7 +169,8 @@ def whole_scene(frame):
     both = runs["preprocess"]["cpuMin"] + runs["render"]["cpuMin"]
     rows = [row(runs["preprocess"], False), row(runs["render"], False),
             ["**both passes**", f"**{both:.2f}** ({both / twin:.2f} x)", "", ""],
-            row(runs["moved"]), row(runs["all"]), row(runs["lambertian"], False)]
+            row(runs["moved"]), row(runs["all"]), row(runs["lambertian"], False),
+            *turntable_rows(frame["turntable"])]
     counts = frame["counts"]
     return Table("Whole scene", ["run", "CPU s, least (x Lambertian)", "median", "memory"], rows,
                  f"{counts['points']:,} points, {counts['nodes']:,} nodes; {counts['sites']:,} "
@@ -177,6 +178,13 @@ def whole_scene(frame):
                  f"{counts['interactionsPerReceiver']:,.0f} interactions each; "
                  f"{counts['lookups']:,} lookups at "
                  f"{1e9 * frame['accuracy']['lookupSeconds']:.0f} ns.", "frame")
+
+
+def turntable_rows(turntable):
+    marble, twin = turntable["later"]["marble"], turntable["later"]["lambertian"]
+    return [["turntable, a frame after the first", f"{marble:.2f} ({turntable['ratio']:.2f} x its "
+             "twin)", "", ""],
+            ["turntable's Lambertian twin, likewise", f"{twin:.2f}", "", ""]]
 
 
 def exitance_error(frame):

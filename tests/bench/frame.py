@@ -4,11 +4,13 @@ import hashlib
 import json
 import math
 import statistics
+import tempfile
 
 import programs
 from programs import BIN, SOURCE
 
 BUNNY = SOURCE / "scenes/bunny"
+TURNTABLE = SOURCE / "scenes/turntable"
 
 
 def measure(scale, options):
@@ -24,6 +26,7 @@ def measure(scale, options):
     render = programs_run["render"]["stats"]["counts"]
     return {
         "programs": programs_run,
+        "turntable": run_turntables(scale, options.out),
         "accuracy": accuracy,
         "reference": {key: reference[key] for key in
                       ("points", "spacingMm", "irradianceSamples", "seedsApart")},
@@ -40,13 +43,17 @@ def measure(scale, options):
     }
 
 
+def resize(scale, scene):
+    if scale["pixels"]:
+        scene["film"].update(width=scale["pixels"], height=scale["pixels"])
+    if scale["frameTolerance"]:
+        scene["quality"]["tolerance"] = scale["frameTolerance"]
+
+
 def make_scenes(scale, folder):
     """The bunny, seen from elsewhere, with all effects, and its Lambertian twin."""
     def smaller(scene):
-        if scale["pixels"]:
-            scene["film"].update(width=scale["pixels"], height=scale["pixels"])
-        if scale["frameTolerance"]:
-            scene["quality"]["tolerance"] = scale["frameTolerance"]
+        resize(scale, scene)
 
     def moved(scene):
         smaller(scene)
@@ -99,6 +106,29 @@ def run_programs(scale, scenes, out):
         "runs": runs[name],
         "stats": stats[name],
     } for name, (label, _) in commands.items()}
+
+
+def run_turntables(scale, out):
+    """CPU seconds of the turntable's frames and of its twin's, in turn; least of the runs of each
+    frame. The caches of a run are its own, so that every first frame makes pass 1."""
+    frames = {"marble": [], "lambertian": []}
+    for run in range(scale["turntableRuns"]):
+        for name, source in (("marble", "turntable"), ("lambertian", "lambertian")):
+            scene = programs.derived_scene(TURNTABLE / f"{source}.json",
+                                           out / f"scenes/turntable-{name}.json",
+                                           lambda scene: resize(scale, scene))
+            stats = out / f"turntable-{name}.stats.json"
+            with tempfile.TemporaryDirectory(dir=out) as folder:
+                cache = ["--cache", f"{folder}/cache/"] if name == "marble" else []
+                programs.cost([BIN / "sss-render", "--quiet", "--no-png", scene, *cache,
+                               "--frames", f"1-{scale['turntableFrames']}",
+                               "-o", f"{folder}/####.exr", "--stats", stats])
+            found = [frame["cpuSeconds"]
+                     for frame in json.loads(stats.read_text())["values"]["frames"]]
+            frames[name] = list(map(min, frames[name] or found, found))
+    later = {name: statistics.mean(seconds[1:]) for name, seconds in frames.items()}
+    return {"cpuSeconds": frames, "later": later,
+            "ratio": later["marble"] / later["lambertian"]}
 
 
 def make_reference(scale, scene, spacing, options):

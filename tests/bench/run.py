@@ -31,7 +31,8 @@ from programs import BIN, SOURCE, BenchError
 SCALES = {
     # Plumbing only: does everything run and write what it should?
     "smoke": {
-        "frameTolerance": 0.5, "pixels": 64, "runs": 1, "denser": 2, "irradianceSamples": 32,
+        "frameTolerance": 0.5, "pixels": 64, "runs": 1, "turntableFrames": 2, "turntableRuns": 1,
+        "denser": 2, "irradianceSamples": 32,
         "referenceSamples": 32, "frameReceivers": 128,
         "points": [1e4], "tolerances": [0.1, 0.01], "receivers": 64, "rounds": 1,
         "scenes": ["ketchup-slab"], "hierarchyTolerance": 0.5,
@@ -46,7 +47,8 @@ SCALES = {
     },
     # Some minutes: rough figures, reference 4 times as dense.
     "quick": {
-        "frameTolerance": 0, "pixels": 0, "runs": 3, "denser": 4, "irradianceSamples": 64,
+        "frameTolerance": 0, "pixels": 0, "runs": 3, "turntableFrames": 3, "turntableRuns": 2,
+        "denser": 4, "irradianceSamples": 64,
         "referenceSamples": 64, "frameReceivers": 768,
         "points": [1e4, 3e4, 1e5], "tolerances": [0.1, 0.01, 0.001, 0.0001], "receivers": 512,
         "rounds": 2, "scenes": list(hierarchy.SCENES), "hierarchyTolerance": 0.1,
@@ -63,7 +65,8 @@ SCALES = {
     # All of it. The reference's many points average their own noise out, so that few light samples
     # are enough: "of the reference" says how well.
     "full": {
-        "frameTolerance": 0, "pixels": 0, "runs": 5, "denser": 16, "irradianceSamples": 64,
+        "frameTolerance": 0, "pixels": 0, "runs": 5, "turntableFrames": 24, "turntableRuns": 2,
+        "denser": 16, "irradianceSamples": 64,
         "referenceSamples": 24, "frameReceivers": 1024,
         "points": [1e4, 3e4, 1e5, 3e5, 1e6, 3e6, 1e7],
         "tolerances": [0.1, 0.03, 0.01, 0.003, 0.001, 0.0003, 0.0001], "receivers": 1024,

@@ -76,6 +76,12 @@ class SmokeTest(unittest.TestCase):
         self.assertLess(accuracy["ofReference"]["rmsOfMean"], accuracy["error"]["rmsOfMean"])
         self.assertGreater(accuracy["lookupSeconds"], 0)
         self.assertEqual(len(self.rows("frame.csv")), 5)
+        turntable = frame["turntable"]
+        for seconds in turntable["cpuSeconds"].values():
+            self.assertEqual(len(seconds), 2)
+            self.assertGreater(min(seconds), 0)
+        # Pass 1 is the first frame's.
+        self.assertLess(turntable["later"]["marble"], turntable["cpuSeconds"]["marble"][0])
 
     def test_scaling_keeps_the_tolerance(self):
         (row,) = self.rows("scaling.csv")

@@ -124,6 +124,9 @@ def frame_summary(frame):
         f"({both / runs['lambertian']['cpuMin']:.2f} x Lambertian); further frame "
         f"{runs['moved']['cpuMin'] / runs['lambertian']['cpuMin']:.2f} x, with all effects "
         f"{runs['all']['cpuMin'] / runs['lambertian']['cpuMin']:.2f} x",
+        "turntable, frames after the first "
+        f"{frame['turntable']['later']['marble']:.2f} CPU s "
+        f"({frame['turntable']['ratio']:.2f} x Lambertian)",
         f"error of exitance           {percent(accuracy['error'])}",
         f"  from hierarchy and sites  {percent(accuracy['fromInterpolationAndHierarchy'])}",
         f"  from light's noise        {percent(accuracy['fromLightNoise'])}",

@@ -8,6 +8,7 @@
 #include "sss/integrate/single_scatter.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace sss {
 namespace {
@@ -16,10 +17,18 @@ namespace {
 constexpr int kRouletteDepth = 3;
 // Share of the camera samples whose reflection is followed: this many times its weight, and at
 // least so many.
-constexpr float kReflectionEffort = 8.0f, kLeastReflectionShare = 0.35f;
+constexpr float kReflectionEffort = 6.0f, kLeastReflectionShare = 0.25f;
 // A direction drawn with less than this density (sr^-1) came from a diffuse or very rough lobe.
 constexpr float kWideLobe = 1.0f;
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
+
+// By which sample number `index` of the `all` of a pixel weights single scattering; 0 if it does
+// not look for it. The first of them do, as they are stratified among themselves.
+float singleWeight(const BodyOptics& optics, std::uint32_t index, std::uint32_t all) {
+    const auto some =
+        static_cast<std::uint32_t>(std::ceil(optics.singleProbability * static_cast<float>(all)));
+    return index % all < some ? static_cast<float>(all) / static_cast<float>(some) : 0.0f;
+}
 
 }  // namespace
 
@@ -207,10 +216,14 @@ void PathTracer::shade(const FirstSurface& surface, const Ray& ray, Sampler& sam
     if (hit.body >= 0 && exitance_) {
         const BodyOptics& optics = *optics_[static_cast<std::size_t>(hit.body)];
         seen.diffusion = diffusion(hit, bsdf, sampler, counts) * optics.multipleScale;
-        if (optics.material.singleScattering && sampler.next1D() < optics.singleProbability)
-            seen.single =
-                singleScatteringAt(hit, -ray.direction, bsdf.shadingNormal(), sampler, counts) /
-                optics.singleProbability;
+        if (optics.material.singleScattering) {
+            Sampler side = sampler.branch();
+            const auto all = static_cast<std::uint32_t>(world_.scene().film.samples);
+            const float weight = singleWeight(optics, sampler.index(), all);
+            if (weight > 0)
+                seen.single = weight * singleScatteringAt(hit, -ray.direction, bsdf.shadingNormal(),
+                                                          side, counts);
+        }
         if (optics.seesThrough) reflected += behind(hit, -ray.direction, sampler, counts);
     }
     Ray next;

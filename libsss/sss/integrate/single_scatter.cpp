@@ -1,5 +1,6 @@
 #include "sss/integrate/single_scatter.h"
 
+#include "sss/base/warp.h"
 #include "sss/integrate/arriving_light.h"
 #include "sss/integrate/medium_coefficients.h"
 #include "sss/integrate/smooth_boundary.h"
@@ -44,97 +45,149 @@ std::optional<Exit> findExit(const World& world, const BodyOptics& optics, int b
     return exit;
 }
 
-// Everything on the way in but the light itself, towards the outgoing propagation direction `out`.
-Rgb entering(const MediumCoefficients& medium, const BodyOptics& optics, const Exit& exit,
-             const Vec3& out) {
-    const float snell = exit.cosOutside / exit.cosInside;
-    const float boundary = (1.0f - fresnelReflectance(exit.cosOutside, optics.eta)) * snell;
-    return phaseBetween(medium, exit.inward, out) * medium.transmittance(exit.distance * snell) *
-           boundary;
-}
-
 struct Depth {
     float distance = 0;
     Rgb weight{0.0f};  // sigma_s e^{-sigma_t s} over the density of s
 };
 
-// Distance along the refracted ray: a channel is picked, its extinction sampled, and the three ways
-// to the same distance combined by the balance heuristic.
-Depth sampleDepth(const MediumCoefficients& medium, Sampler& sampler) {
-    const float pick = sampler.next1D(), u = sampler.next1D();
-    const int channel = std::min(2, static_cast<int>(pick * 3.0f));
+// Share of the samples that reckon with the way in too.
+constexpr float kBothWaysShare = 0.5f;
+
+// Distance along the refracted ray, that leaves the surface at a cosine of `cosOut`. A channel is
+// picked and its extinction sampled: half the time that of the way out and of the way in together,
+// which is `both` times the former under a flat surface, for light at a usual angle; else that of
+// the way out alone, lest light that comes through a thin part gets too large a weight. The six
+// ways to the same distance are combined by the balance heuristic.
+Depth sampleDepth(const MediumCoefficients& medium, float both, Sampler& sampler) {
+    const float pick = 3.0f * sampler.next1D(), u = sampler.next1D();
+    const int channel = std::min(2, static_cast<int>(pick));
+    const bool countsBoth = pick - static_cast<float>(channel) < kBothWaysShare;
     Depth depth;
     if (!(medium.sigmaT[channel] > 0)) return depth;
-    depth.distance = -std::log1p(-u) / medium.sigmaT[channel];
-    const Rgb remaining = medium.transmittance(depth.distance);
-    const float density = meanComponent(medium.sigmaT * remaining);
-    if (density > 0) depth.weight = medium.sigmaS * remaining / density;
+    depth.distance = -std::log1p(-u) / (medium.sigmaT[channel] * (countsBoth ? both : 1.0f));
+    const Rgb out = medium.transmittance(depth.distance);
+    const Rgb outAndIn = medium.transmittance(depth.distance * both);
+    const float density = meanComponent(
+        medium.sigmaT * (kBothWaysShare * both * outAndIn + (1 - kBothWaysShare) * out));
+    if (density > 0) depth.weight = medium.sigmaS * out / density;
     return depth;
 }
 
-// Share of the samples that look for light by light sampling; the others sample the phase function.
-constexpr float kLightShare = 0.75f;
+// By how much the way out and the way in together dim more than the way out alone, under a flat
+// surface seen at an inner cosine of `cosOutInside`: refraction bends all light towards the normal,
+// so that one angle of the way in stands for all.
+float bothWays(float cosOutInside, float eta) {
+    constexpr float kUsualCosine = 2.0f / 3.0f;
+    return 1.0f + cosOutInside / std::max(0.5f, refractedCosine(kUsualCosine, eta));
+}
+
+// Share of the samples that look for light by light sampling: less where the lights can shine only
+// from behind, through the body. The others sample where light may come from.
+constexpr float kLightShare = 0.75f, kLightShareBehind = 0.5f;
+
+float lightShare(const World& world, const SurfaceHit& hit) {
+    if (world.picker().empty()) return 0;
+    const bool isLit = std::ranges::any_of(world.lights(), [&](const auto& light) {
+        return !light->bestFoundByScattering() &&
+               !light->isBelow(hit.position, hit.geometricNormal);
+    });
+    return isLit ? kLightShare : kLightShareBehind;
+}
+
+// Share of those others that go out through the surface they came in by; the rest sample the phase
+// function.
+constexpr float kOutwardShare = 0.75f;
+
+// Of light whose way in leaves less of it than this (sr^-1), a hundredth of what isotropic
+// scattering turns towards the camera, not all is followed.
+constexpr float kFaint = 0.01f / (4 * kPiF);
 
 // What a place inside sends towards the outgoing propagation direction `out`, by one of the two
 // techniques, weighted by the power heuristic for one sample.
 class InScattering {
 public:
     InScattering(const World& world, const BodyOptics& optics, const MediumCoefficients& medium,
-                 int body, const Vec3& place, const Vec3& out)
-        : world_(world), optics_(optics), medium_(medium), body_(body), place_(place), out_(out) {}
+                 const SurfaceHit& hit, const Vec3& place, const Vec3& out)
+        : world_(world),
+          optics_(optics),
+          medium_(medium),
+          body_(hit.body),
+          outward_(hit.geometricNormal),
+          lightShare_(lightShare(world, hit)),
+          place_(place),
+          out_(out) {}
 
     Rgb estimate(Sampler& sampler, const IncomingRadiance& incoming,
                  SingleScatterCounts& counts) const {
-        const float lightShare = world_.picker().empty() ? 0.0f : kLightShare;
         const float uTechnique = sampler.next1D(), uPick = sampler.next1D();
         const Vec2 u = sampler.next2D();
-        if (uTechnique < lightShare) return byLight(lightShare, uPick, u, counts);
-        return byPhase(lightShare, u, incoming, counts);
+        const float uFaint = sampler.next1D();
+        if (uTechnique < lightShare_) return byLight(uPick, u, uFaint, counts);
+        const float rest = (uTechnique - lightShare_) / (1 - lightShare_);
+        return byScattering(rest < kOutwardShare, u, uFaint, incoming, counts);
     }
 
 private:
-    float phasePdf(const Vec3& direction) const {
-        return henyeyGreenstein(-glm::dot(direction, out_), meanComponent(medium_.g));
+    // Everything on the way in but the light itself. What is left of faint light is followed by
+    // chance, and zero where chance says no.
+    Rgb entering(const Exit& exit, float uFaint) const {
+        const float snell = exit.cosOutside / exit.cosInside;
+        const float boundary = (1.0f - fresnelReflectance(exit.cosOutside, optics_.eta)) * snell;
+        const Rgb share = phaseBetween(medium_, exit.inward, out_) *
+                          medium_.transmittance(exit.distance * snell) * boundary;
+        const float survival = std::min(1.0f, maxComponent(share) / kFaint);
+        return uFaint < survival ? share / survival : Rgb(0);
     }
 
-    Rgb byLight(float share, float uPick, const Vec2& u, SingleScatterCounts& counts) const {
+    // Density of byScattering().
+    float scatteringPdf(const Vec3& direction) const {
+        const float phase = henyeyGreenstein(-glm::dot(direction, out_), meanComponent(medium_.g));
+        const float outward = std::max(0.0f, glm::dot(direction, outward_.normal)) / kPiF;
+        return (1 - lightShare_) * (kOutwardShare * outward + (1 - kOutwardShare) * phase);
+    }
+
+    Rgb byLight(float uPick, const Vec2& u, float uFaint, SingleScatterCounts& counts) const {
         const DirectSample direct = sampleDirect(world_, place_, uPick, u);
         if (!(direct.pdf > 0)) return Rgb(0);
         ++counts.rays;
         const auto exit = findExit(world_, optics_, body_, place_, direct.direction);
         if (!exit || exit->distance >= direct.distance) return Rgb(0);
+        const Rgb wayIn = entering(*exit, uFaint);
+        if (isZero(wayIn)) return Rgb(0);
         DirectSample rest = direct;
         rest.distance -= exit->distance;
         const Rgb arriving = arrivingShare(world_, exit->outside, rest, counts.rays);
         if (isZero(arriving)) return Rgb(0);
-        const float weight =
-            direct.isDelta
-                ? 1.0f
-                : powerHeuristic(share * direct.pdf, (1 - share) * phasePdf(direct.direction));
-        return entering(medium_, optics_, *exit, out_) * arriving * direct.radianceOverPdf *
-               (weight / share);
+        const float weight = direct.isDelta ? 1.0f
+                                            : powerHeuristic(lightShare_ * direct.pdf,
+                                                             scatteringPdf(direct.direction));
+        return wayIn * arriving * direct.radianceOverPdf * (weight / lightShare_);
     }
 
-    Rgb byPhase(float lightShare, const Vec2& u, const IncomingRadiance& incoming,
-                SingleScatterCounts& counts) const {
-        const Vec3 direction = sampleScattered(-out_, meanComponent(medium_.g), u);
-        const float pdf = (1 - lightShare) * phasePdf(direction);
+    Rgb byScattering(bool outward, const Vec2& u, float uFaint, const IncomingRadiance& incoming,
+                     SingleScatterCounts& counts) const {
+        const Vec3 direction = outward ? outward_.toWorld(cosineDirection(u))
+                                       : sampleScattered(-out_, meanComponent(medium_.g), u);
+        const float pdf = scatteringPdf(direction);
         if (!(pdf > 0)) return Rgb(0);
         ++counts.rays;
         const auto exit = findExit(world_, optics_, body_, place_, direction);
         if (!exit) return Rgb(0);
-        Ray outward;
-        outward.origin = exit->outside;
-        outward.direction = direction;
+        const Rgb wayIn = entering(*exit, uFaint);
+        if (isZero(wayIn)) return Rgb(0);
+        Ray beyond;
+        beyond.origin = exit->outside;
+        beyond.direction = direction;
         // Infinite without light sampling: nothing to share with.
-        return entering(medium_, optics_, *exit, out_) *
-               incoming(outward, place_, pdf / lightShare) / pdf;
+        return wayIn * incoming(beyond, place_, pdf / lightShare_) / pdf;
     }
 
     const World& world_;
     const BodyOptics& optics_;
     const MediumCoefficients& medium_;
     int body_;
+    Frame outward_;
+    float lightShare_;
     Vec3 place_, out_;
 };
 
@@ -158,7 +211,7 @@ Rgb singleScattering(const World& world, const BodyOptics& optics, const Surface
     const float cosOut = glm::dot(normal, wo);
     const float cosOutInside = refractedCosine(cosOut, optics.eta);
     if (!(cosOut > 0 && cosOutInside > 0)) return Rgb(0);
-    const Depth depth = sampleDepth(medium, sampler);
+    const Depth depth = sampleDepth(medium, bothWays(cosOutInside, optics.eta), sampler);
     if (isZero(depth.weight)) return Rgb(0);
 
     // A ray that leaves the body before it scatters brings nothing.
@@ -172,7 +225,7 @@ Rgb singleScattering(const World& world, const BodyOptics& optics, const Surface
 
     // From the surface itself: the step off it would count as distance in the medium.
     const Vec3 place = hit.position + inward.direction * depth.distance;
-    const InScattering inside(world, optics, medium, hit.body, place, -inward.direction);
+    const InScattering inside(world, optics, medium, hit, place, -inward.direction);
     const float leaving =
         (1.0f - fresnelReflectance(cosOut, optics.eta)) / (optics.eta * optics.eta);
     return inside.estimate(sampler, incoming, counts) * depth.weight * leaving;

@@ -25,10 +25,11 @@ bool mayScatterOnce(const World& world, const BodyOptics& optics, const Vec3& pl
 /// One estimate of the radiance that leaves a body at `hit` towards `wo` after exactly one
 /// scattering inside it [JMLH01 section 2.3, rigorous form].
 ///
-/// A distance s is sampled along the refracted ray by its extinction; at that point in-scattered
-/// light is found by light sampling or by sampling the phase function, weighted by the power
-/// heuristic. Light is taken to come in straight, and its path inside is corrected by Snell's law
-/// [JMLH01 Eq. 8], exact for a plane boundary:
+/// A distance s is sampled along the refracted ray by its extinction, on the way out or on both
+/// ways; at that point in-scattered light is found by light sampling, or by sampling the phase
+/// function or the half-space above the surface, weighted by the power heuristic. Light is taken to
+/// come in straight, and its path inside is corrected by Snell's law [JMLH01 Eq. 8], exact for a
+/// plane boundary:
 ///   L_o = F_t(w_o)/eta^2  int sigma_s e^{-sigma_t s}  int p F_t(w_i) (mu_i / mu_i') e^{-sigma_t
 ///   s_i'} L_i dw_i ds
 /// with dw_i in exterior solid angle. The factor (mu_i / mu_i') and 1/eta^2 are what [JMLH01 Eq. 7]

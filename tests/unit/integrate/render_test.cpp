@@ -54,34 +54,44 @@ TEST(Render, WhiteFurnace) {
     for (int c = 0; c < 3; ++c) EXPECT_NEAR(mean[c] / n, 1, 0.01);
 }
 
-// A plane much larger than the reach of diffusion, in sunlight: the closed form of each layer.
-TEST(Render, EvenlyLitPlane) {
-    const double cosSun = 0.8, eta = 1.4;
+// A plane much larger than the reach of diffusion, in sunlight.
+struct SunnyPlane {
+    double cosSun = 0.8, eta = 1.4;
+    double cosOut = std::cos(glm::radians(35.0));
     TranslucentMaterial material = grey(0.2, 4, eta);  // reach 1/sigma_tr = 0.63 mm
+    double transmittedSun = 2 * cosSun * (1 - fresnelReflectance(cosSun, eta));
     SceneMaker maker;
-    maker.object(BoxShape{{14, 5, 14}}, maker.material(material));
-    maker.light(DirectionalLight{{-0.6, -cosSun, 0}, Rgb(2)});
-    const double slope = glm::radians(35.0);
-    maker.scene.camera.position = {0, 2.5 + 30 * std::cos(slope), 30 * std::sin(slope)};
-    maker.scene.camera.lookAt = {0, 2.5, 0};
-    maker.scene.camera.fovDegrees = 2;
-    maker.scene.film.width = maker.scene.film.height = 8;
-    maker.scene.film.samples = 256;
-    maker.scene.quality.tolerance = 0.01;
-    const LayeredImage image = picture(maker.scene);
 
-    const World world = maker.world();
+    explicit SunnyPlane(int samples) {
+        maker.object(BoxShape{{14, 5, 14}}, maker.material(material));
+        maker.light(DirectionalLight{{-0.6, -cosSun, 0}, Rgb(2)});
+        maker.scene.camera.position = {0, 2.5 + 30 * cosOut, 30 * std::sqrt(1 - cosOut * cosOut)};
+        maker.scene.camera.lookAt = {0, 2.5, 0};
+        maker.scene.camera.fovDegrees = 2;
+        maker.scene.film.width = maker.scene.film.height = 8;
+        maker.scene.film.samples = samples;
+        maker.scene.quality.tolerance = 0.01;
+    }
+
+    // What is seen of light scattered once.
+    double single() const {
+        const double muI = refractedCosine(cosSun, eta), muO = refractedCosine(cosOut, eta);
+        return material.medium.channel(0).albedo() / (4 * kPi) * transmittedSun *
+               (1 - fresnelReflectance(cosOut, eta)) / (eta * eta * (muI + muO));
+    }
+};
+
+// The closed form of each layer.
+TEST(Render, EvenlyLitPlane) {
+    const SunnyPlane plane(256);
+    const LayeredImage image = picture(plane.maker.scene);
+
+    const World world = plane.maker.world();
     const auto optics = makeBodyOptics(world);
-    const double transmittedSun = 2 * cosSun * (1 - fresnelReflectance(cosSun, eta));
-    const double cosOut = std::cos(slope);
     const double expected = static_cast<double>(optics[0]->multipleScale.x) *
-                            optics[0]->profiles[0]->total() * transmittedSun *
-                            (1 - fresnelReflectance(cosOut, eta)) /
-                            (kPi * hemisphericalTransmittance(eta));
-    const ChannelMedium medium = material.medium.channel(0);
-    const double muI = refractedCosine(cosSun, eta), muO = refractedCosine(cosOut, eta);
-    const double single = medium.albedo() / (4 * kPi) * transmittedSun *
-                          (1 - fresnelReflectance(cosOut, eta)) / (eta * eta * (muI + muO));
+                            optics[0]->profiles[0]->total() * plane.transmittedSun *
+                            (1 - fresnelReflectance(plane.cosOut, plane.eta)) /
+                            (kPi * hemisphericalTransmittance(plane.eta));
     double diffusionMean = 0, singleMean = 0;
     for (int y = 0; y < 8; ++y)
         for (int x = 0; x < 8; ++x) {
@@ -93,7 +103,23 @@ TEST(Render, EvenlyLitPlane) {
             EXPECT_NEAR(value(image, "Z", x, y, 0), 30, 0.5);
         }
     EXPECT_NEAR(diffusionMean, expected, 0.005 * expected);
-    EXPECT_NEAR(singleMean, single, 0.01 * single);
+    EXPECT_NEAR(singleMean, plane.single(), 0.01 * plane.single());
+}
+
+// Not every sample looks for single scattering, but those that do stand for the others, however
+// many there are.
+TEST(Render, FewSamplesShowAllSingleScattering) {
+    for (const int samples : {1, 3, 12, 17}) {
+        SCOPED_TRACE(samples);
+        SunnyPlane plane(samples);
+        plane.maker.scene.film.width = plane.maker.scene.film.height = 64;
+        plane.maker.scene.quality.tolerance = 0.5;
+        const LayeredImage image = picture(plane.maker.scene);
+        double mean = 0;
+        for (int y = 0; y < 64; ++y)
+            for (int x = 0; x < 64; ++x) mean += value(image, "single", x, y, 0) / (64 * 64);
+        EXPECT_NEAR(mean, plane.single(), 0.04 * plane.single());
+    }
 }
 
 SceneMaker smallScene() {
