@@ -135,8 +135,11 @@ class SmokeTest(unittest.TestCase):
         for model in models.values():
             self.assertGreater(model["seconds"], 0)
             self.assertGreater(model["meanStandardError"], 0)
-            # -20 % in pictures with less noise.
-            self.assertAlmostEqual(model["mean"], -0.2, delta=5 * model["meanStandardError"])
+            # -20 % for a half-space in pictures with less noise; the shape's points are as coarse as
+            # they may be here.
+            expected, delta = (0, 0.15) if model["name"] == "shape" else (-0.2, 0)
+            self.assertAlmostEqual(model["mean"], expected,
+                                   delta=delta + 5 * model["meanStandardError"])
         self.assertEqual(len(self.rows("models.csv")), 3)
 
     def test_report_is_one_file_with_its_pictures_and_tables(self):

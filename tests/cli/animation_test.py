@@ -253,7 +253,7 @@ class Animation(CliTest):
 
         def explained(**changes):
             scene = self.write_scene(
-                objects=[box, floor], quality={"tolerance": 0.1, "bounces": 4, "spacing": 1},
+                objects=[box, floor], quality={"tolerance": 0.1, "bounces": 4, "spacingMm": 1},
                 materials={"floor": {"type": "lambertian", "reflectance": 0.8},
                            "stone": {"type": "translucent", "sigmaSPrimePerMm": 2,
                                      "sigmaAPerMm": 0.01, **changes}})

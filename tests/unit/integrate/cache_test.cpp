@@ -182,7 +182,8 @@ TEST(SceneFingerprint, NamesExactlyWhatChanged) {
         {"spacing", [](Scene& s) { s.quality.spacingMm = 0.8; }, {"sampling"}},
         {"seed", [](Scene& s) { s.quality.seed = 5; }, {"sampling"}},
         {"light samples", [](Scene& s) { s.quality.irradianceSamples = 24; }, {"irradiance"}},
-        {"bounces", [](Scene& s) { s.quality.bounces = 2; }, {"irradiance"}},
+        // Light may then come back to the body: what its medium reflects counts.
+        {"bounces", [](Scene& s) { s.quality.bounces = 2; }, {"irradiance", "medium"}},
         {"neighbour's place",
          [](Scene& s) {
              s.objects[1].transform = {testing::moved({0, 0, -7})};
@@ -202,7 +203,7 @@ TEST(SceneFingerprint, NamesExactlyWhatChanged) {
              s.objects.back().transform = {testing::moved({0, 0, -8})};
          },
          {"surroundings"}},
-        {"fog", [](Scene& s) { s.volumes.push_back(ballOfFog()); }, {"volumes"}},
+        {"fog", [](Scene& s) { s.volumes.push_back(ballOfFog()); }, {"volumes", "medium"}},
     };
     const auto before = inputsOf(smallScene().scene);
     for (const Change& change : changes) {

@@ -39,7 +39,7 @@ public:
         maker_.scene.camera.up = {0, 0, 1};
         maker_.scene.camera.fovDegrees = 1;
         maker_.scene.film.width = maker_.scene.film.height = 2;
-        maker_.scene.film.samples = 256;
+        maker_.scene.film.samples = 2048;
         maker_.scene.quality.bounces = 0;
         maker_.scene.quality.tolerance = 0.03;
         const World world = maker_.world();

@@ -192,6 +192,31 @@ TEST(ExitanceCache, ADamagedFileIsNamedAndMadeAnew) {
     }
 }
 
+// Its checksums hold, so that another program wrote it.
+TEST(ExitanceCache, AFileThatDoesNotFitTogetherIsNamed) {
+    const TemporaryFolder folder;
+    const Scene scene = lampOverBox();
+    Frame first(scene, folder / "c.ssc");
+    first.look(0, 12);
+    first.save();
+    const auto fingerprint = CacheFile::open(first.cache.file()).find("exgroups", 0)->fingerprint;
+    {
+        CacheWriter writer(first.cache.file());
+        writer.add<ExitanceStore::Entry>("exgroups", 0, fingerprint,
+                                         std::vector<ExitanceStore::Entry>(1, {7, 1}));
+        writer.add<std::uint8_t>("exsegms", 0, {}, std::vector<std::uint8_t>());
+        writer.add<std::uint16_t>("exsites", 0, {}, std::vector<std::uint16_t>());
+        writer.add<Rgb>("exvalues", 0, {}, std::vector<Rgb>());
+        writer.commit();
+    }
+    Frame second(scene, folder / "c.ssc");
+    EXPECT_EQ(second.load(), 0u);
+    ASSERT_EQ(second.warnings.all.size(), 1u);
+    EXPECT_NE(second.warnings.all[0].find("the exitance of body 0 does not fit together"),
+              std::string::npos)
+        << second.warnings.all[0];
+}
+
 TEST(ExitanceCache, WhatCannotBeWrittenIsNoFault) {
     const TemporaryFolder folder;
     Frame frame(lampOverBox(), folder / "no-such-folder/c.ssc");

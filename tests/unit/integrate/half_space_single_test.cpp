@@ -1,6 +1,6 @@
 #include "sss/integrate/half_space_single.h"
 
-#include "sss/medium/half_space.h"
+#include "sss/medium/single_scatter.h"
 #include "sss/optics/fresnel.h"
 #include "sss/optics/fresnel_moments.h"
 #include "unit/integrate/scene_maker.h"

@@ -6,6 +6,7 @@
 #include "sss/integrate/preprocess.h"
 #include "sss/integrate/renderer.h"
 #include "sss/medium/half_space.h"
+#include "sss/medium/single_scatter.h"
 #include "sss/optics/fresnel_moments.h"
 #include "unit/integrate/batches.h"
 #include "unit/integrate/scene_maker.h"
