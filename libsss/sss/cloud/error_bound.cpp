@@ -12,9 +12,9 @@ constexpr double kBoundSlack = 12.0;
 // The share of the tolerance that one node may take at tolerance 0.01. The finer the sum the more
 // nodes there are, about by this power of the tolerance.
 constexpr double kNodeShare = 0.6, kSharePower = 0.35;
-// Held by diffusion_sum_test for half-lit, coloured, thin and lumpy bodies, four media, all kinds of
-// profiles, groups and single receivers and tolerances from 0.1 to 0.0001. What limits the share is
-// the bias, always dark, of single receivers: with a share of 0.8 it came above a tenth of the
+// Held by diffusion_sum_test for half-lit, coloured, thin and lumpy bodies, four media, all kinds
+// of profiles, groups and single receivers and tolerances from 0.1 to 0.0001. What limits the share
+// is the bias, always dark, of single receivers: with a share of 0.8 it came above a tenth of the
 // tolerance.
 
 }  // namespace
