@@ -66,11 +66,13 @@ TEST(BrokenMesh, FilesThatTheSystemWillNotGive) {
         return "accepted";
     };
     testing::writeFile(folder / "a.obj", "v 0 0 0\n");
+#ifndef SSS_SANITIZED  // the sanitizer asks whether memory is readable by opening a pipe
     {
         const testing::NoMoreFiles limit;
         EXPECT_NE(wordsOf(folder / "a.obj").find("the mesh file cannot be opened; check its perm"),
                   std::string::npos);
     }
+#endif
     // States a page, and holds a line.
     std::filesystem::create_symlink("/sys/devices/system/cpu/online", folder / "short.obj");
     EXPECT_NE(wordsOf(folder / "short.obj").find("the mesh file cannot be read to its end"),
