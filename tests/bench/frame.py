@@ -51,7 +51,7 @@ def resize(scale, scene):
 
 
 def make_scenes(scale, folder):
-    """The bunny, seen from elsewhere, with all effects, and its Lambertian twin."""
+    """The bunny, seen from elsewhere, from there with all effects, and its Lambertian twin."""
     def smaller(scene):
         resize(scale, scene)
 
@@ -60,7 +60,7 @@ def make_scenes(scale, folder):
         scene["camera"]["position"] = [35, 12, 125]
 
     def with_all(scene):
-        smaller(scene)
+        moved(scene)
         scene["materials"]["marble"].update(surfaceReflection=True, singleScattering=True,
                                             roughness=0.3)
 
@@ -90,6 +90,10 @@ def run_programs(scale, scenes, out):
     runs = {name: [] for name in commands}
     stats = {}
     for _ in range(scale["runs"]):
+        # The first frame of a cache finds no exitance kept, further ones that of the first.
+        for kept in (cache, full_cache):
+            kept.with_name(kept.name + ".exitance").unlink(missing_ok=True)
+        programs.cost([*render, scenes["bunny"], "--cache", full_cache, "-o", out / "first.exr"])
         for name, (_, command) in commands.items():
             file = out / f"{name}.stats.json"
             runs[name].append(programs.cost([*command, "--stats", file]))

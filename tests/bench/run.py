@@ -88,7 +88,7 @@ def arguments():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     for scale in SCALES:
         parser.add_argument(f"--{scale}", dest="scale", action="store_const", const=scale)
-    parser.add_argument("--only", default=",".join(PARTS), help="parts, separated by commas")
+    parser.add_argument("--only", help="parts, separated by commas [all, but of --quick without models]")
     parser.add_argument("--out", type=pathlib.Path, default=SOURCE / "out/bench")
     parser.add_argument("--cache", type=pathlib.Path, default=SOURCE / "build/bench-cache",
                         help="where costly references are kept")
@@ -97,7 +97,8 @@ def arguments():
                         "put its volpathmis beside volume; for --full")
     parser.set_defaults(scale="quick")
     options = parser.parse_args()
-    options.parts = options.only.split(",")
+    parts = [part for part in PARTS if part != "models" or options.scale != "quick"]
+    options.parts = options.only.split(",") if options.only else parts
     for part in options.parts:
         if part not in PARTS:
             parser.error(f'no part "{part}": {", ".join(PARTS)}')
