@@ -60,7 +60,7 @@ BodyOptics::BodyOptics(const TranslucentMaterial& translucent, bool solvesShape)
     double lowestAlbedo = 1;
     for (int c = 0; c < 3; ++c)
         lowestAlbedo = std::min(lowestAlbedo, translucent.medium.channel(c).reducedAlbedo());
-    if (lowestAlbedo > kHighAlbedo) singleProbability = 0.125f;
+    if (lowestAlbedo > kHighAlbedo) singleProbability = 0.25f;
 }
 
 int BodyOptics::firstLike(int channel) const {

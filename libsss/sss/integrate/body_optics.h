@@ -30,8 +30,8 @@ struct BodyOptics {
     /// By which it is scaled where it is seen at second hand and nobody looks for single
     /// scattering.
     Rgb indirectScale{1.0f};
-    /// Share of the camera samples that look for single scattering (weighted up accordingly): an
-    /// eighth of them where it is a small part of what leaves, as it is at high albedo.
+    /// Share of the camera samples that look for single scattering (weighted up accordingly): a
+    /// quarter of them where it is a small part of what leaves, as it is at high albedo.
     float singleProbability = 1;
     /// Exitance per transmitted irradiance when mean free paths are short: the diffuse limit
     /// [JMLH01 section 2.4], single scattering included.

@@ -85,12 +85,16 @@ float bothWays(float cosOutInside, float eta) {
 // from behind, through the body. The others sample where light may come from.
 constexpr float kLightShare = 0.75f, kLightShareBehind = 0.5f;
 
-float lightShare(const World& world, const SurfaceHit& hit) {
-    if (world.picker().empty()) return 0;
-    const bool isLit = std::ranges::any_of(world.lights(), [&](const auto& light) {
+// Whether a lamp stands above the surface there.
+bool isLitFromOutside(const World& world, const SurfaceHit& hit) {
+    return std::ranges::any_of(world.lights(), [&](const auto& light) {
         return !light->bestFoundByScattering() &&
                !light->isBelow(hit.position, hit.geometricNormal);
     });
+}
+
+float lightShare(const World& world, bool isLit) {
+    if (world.picker().empty()) return 0;
     return isLit ? kLightShare : kLightShareBehind;
 }
 
@@ -107,13 +111,13 @@ constexpr float kFaint = 0.01f / (4 * kPiF);
 class InScattering {
 public:
     InScattering(const World& world, const BodyOptics& optics, const MediumCoefficients& medium,
-                 const SurfaceHit& hit, const Vec3& place, const Vec3& out)
+                 const SurfaceHit& hit, bool isLit, const Vec3& place, const Vec3& out)
         : world_(world),
           optics_(optics),
           medium_(medium),
           body_(hit.body),
           outward_(hit.geometricNormal),
-          lightShare_(lightShare(world, hit)),
+          lightShare_(lightShare(world, isLit)),
           place_(place),
           out_(out) {}
 
@@ -211,7 +215,11 @@ Rgb singleScattering(const World& world, const BodyOptics& optics, const Surface
     const float cosOut = glm::dot(normal, wo);
     const float cosOutInside = refractedCosine(cosOut, optics.eta);
     if (!(cosOut > 0 && cosOutInside > 0)) return Rgb(0);
-    const Depth depth = sampleDepth(medium, bothWays(cosOutInside, optics.eta), sampler);
+    // Light that comes only from behind goes the other way through a thin part: less of it is left
+    // where it came in, not more.
+    const bool isLit = isLitFromOutside(world, hit);
+    const float both = isLit ? bothWays(cosOutInside, optics.eta) : 1.0f;
+    const Depth depth = sampleDepth(medium, both, sampler);
     if (isZero(depth.weight)) return Rgb(0);
 
     // A ray that leaves the body before it scatters brings nothing.
@@ -225,7 +233,7 @@ Rgb singleScattering(const World& world, const BodyOptics& optics, const Surface
 
     // From the surface itself: the step off it would count as distance in the medium.
     const Vec3 place = hit.position + inward.direction * depth.distance;
-    const InScattering inside(world, optics, medium, hit, place, -inward.direction);
+    const InScattering inside(world, optics, medium, hit, isLit, place, -inward.direction);
     const float leaving =
         (1.0f - fresnelReflectance(cosOut, optics.eta)) / (optics.eta * optics.eta);
     return inside.estimate(sampler, incoming, counts) * depth.weight * leaving;

@@ -36,7 +36,7 @@ SceneMaker ballUnderSky(const TranslucentMaterial& material, double radius) {
     maker.scene.camera.position = {0, 0, 30 * radius};
     maker.scene.camera.lookAt = {0, 0, 0};
     maker.scene.camera.fovDegrees = 2.6;  // within the ball's outline
-    maker.scene.film.samples = 64;
+    maker.scene.film.samples = 256;
     maker.scene.quality.tolerance = 0.02;
     return maker;
 }
