@@ -29,6 +29,7 @@ HEADERS = {
     "Highway": r"hwy/",
     "OpenEXR": r"(OpenEXR|Imath)/|((Imf|Iex|Imath)\w*|half)\.h",
     "libpng": r"(libpng\d*/)?png\.h",
+    "zlib": r"zlib\.h",
     "CLI11": r"CLI/",
 }
 # Headers of the C library and of Linux; standard C++ headers have no dot.

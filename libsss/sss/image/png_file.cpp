@@ -6,6 +6,7 @@
 
 #include <fmt/core.h>
 #include <png.h>
+#include <zlib.h>
 
 #include <fstream>
 #include <iterator>
@@ -45,14 +46,10 @@ std::uint32_t numberAt(std::span<const char> bytes, std::size_t at) {
     return n;
 }
 
-// The checksum of a chunk's type and data (PNG specification, annex D).
+// The checksum of a chunk's type and data, which are less than 2^31 bytes.
 std::uint32_t chunkChecksum(std::span<const char> bytes) {
-    std::uint32_t crc = 0xffffffffu;
-    for (const char c : bytes) {
-        crc ^= static_cast<unsigned char>(c);
-        for (int bit = 0; bit < 8; ++bit) crc = crc & 1 ? 0xedb88320u ^ crc >> 1 : crc >> 1;
-    }
-    return ~crc;
+    return static_cast<std::uint32_t>(
+        crc32(0, reinterpret_cast<const Bytef*>(bytes.data()), static_cast<uInt>(bytes.size())));
 }
 
 }  // namespace

@@ -53,11 +53,11 @@ struct Depth {
 // Share of the samples that reckon with the way in too.
 constexpr float kBothWaysShare = 0.5f;
 
-// Distance along the refracted ray, that leaves the surface at a cosine of `cosOut`. A channel is
-// picked and its extinction sampled: half the time that of the way out and of the way in together,
-// which is `both` times the former under a flat surface, for light at a usual angle; else that of
-// the way out alone, lest light that comes through a thin part gets too large a weight. The six
-// ways to the same distance are combined by the balance heuristic.
+// Distance along the refracted ray. A channel is picked and its extinction sampled: half the time
+// that of the way out and of the way in together, which is `both` times the former under a flat
+// surface, for light at a usual angle; else that of the way out alone, lest light that comes
+// through a thin part gets too large a weight. The six ways to the same distance are combined by
+// the balance heuristic.
 Depth sampleDepth(const MediumCoefficients& medium, float both, Sampler& sampler) {
     const float pick = 3.0f * sampler.next1D(), u = sampler.next1D();
     const int channel = std::min(2, static_cast<int>(pick));

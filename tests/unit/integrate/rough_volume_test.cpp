@@ -28,15 +28,7 @@ TEST(RoughVolume, WhiteFurnace) {
                 maker.object(BoxShape{DVec3(1)}, both, moved({0, 1.6, 0})).group = "pair";
             }
             maker.light(sky());
-            const Experiment experiment(maker);
-            const Estimate e = estimate(16, [&](Sampler& sampler) {
-                Ray ray;
-                ray.origin = Vec3(Vec2(1.8f) * (sampler.next2D() - 0.5f), 3.0f);
-                ray.direction = {0, 0, -1};
-                return all(experiment.trace(ray, sampler));
-            });
-            expectWithin(e, DRgb(1), 1e-4, 1e-4);
-            EXPECT_EQ(experiment.counts().lost, 0u);
+            expectWhiteFurnace(maker);
         }
 }
 

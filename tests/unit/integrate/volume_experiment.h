@@ -82,4 +82,18 @@ inline void blackCeiling(SceneMaker& maker, double height) {
                  moved({0, height, 0}) * turned(90, {1, 0, 0}));
 }
 
+/// Whatever a camera above sees of a scene that absorbs nothing, under a sky of radiance 1, is 1,
+/// path by path.
+inline void expectWhiteFurnace(const SceneMaker& maker) {
+    const Experiment experiment(maker);
+    const Estimate e = estimate(16, [&](Sampler& sampler) {
+        Ray ray;
+        ray.origin = Vec3(Vec2(1.8f) * (sampler.next2D() - 0.5f), 3.0f);
+        ray.direction = {0, 0, -1};
+        return all(experiment.trace(ray, sampler));
+    });
+    expectWithin(e, DRgb(1), 1e-4, 1e-4);
+    EXPECT_EQ(experiment.counts().lost, 0u);
+}
+
 }  // namespace sss::testing
