@@ -54,20 +54,20 @@ DMat3 reorthogonalised(const DMat3& q) { return 0.5 * (q + glm::transpose(glm::i
 
 }  // namespace
 
-PolarParts polarDecompose(const DMat3& matrix) {
+PolarParts polarDecompose(const DMat3& matrix, const std::string& where) {
     double largest = 0;
     for (int c = 0; c < 3; ++c)
         for (int r = 0; r < 3; ++r)
             largest = std::isfinite(matrix[c][r]) ? std::max(largest, std::abs(matrix[c][r]))
                                                   : std::numeric_limits<double>::infinity();
     if (!std::isfinite(largest))
-        throw Error(ErrorKind::BadInput, "transform", "the matrix holds NaN or infinite numbers");
+        throw Error(ErrorKind::BadInput, where, "the matrix holds NaN or infinite numbers");
     const OrthogonalColumns s = decompose(largest > 0 ? matrix / largest : matrix);
     const std::array<double, 3> sigma{glm::length(s.columns[0]), glm::length(s.columns[1]),
                                       glm::length(s.columns[2])};
     const auto [smallest, greatest] = std::minmax_element(sigma.begin(), sigma.end());
     if (!(*smallest > 1e-12 * *greatest))
-        throw Error(ErrorKind::BadInput, "transform",
+        throw Error(ErrorKind::BadInput, where,
                     fmt::format("the matrix is singular: it shrinks one direction to {:.3g} of "
                                 "another",
                                 *greatest > 0 ? *smallest / *greatest : 0.0),

@@ -1,6 +1,8 @@
 #pragma once
 #include "sss/base/vec.h"
 
+#include <string>
+
 namespace sss {
 
 /// Motion without scaling: p -> rotation * p + translation. The rotation is proper (det +1).
@@ -30,7 +32,8 @@ struct PolarParts {
 /// eigenvalue, of the smallest magnitude; among equals, the choice that turns least.
 /// Throws Error{BadInput} if `matrix` is not finite, or if its smallest singular value is below
 /// 1e-12 of its largest. Source: singular values by one-sided Jacobi rotations [Hestenes 1958],
-/// which keep the relative accuracy of strongly scaled columns.
-PolarParts polarDecompose(const DMat3& matrix);
+/// which keep the relative accuracy of strongly scaled columns. `where`: where the matrix comes
+/// from, for the error.
+PolarParts polarDecompose(const DMat3& matrix, const std::string& where = "transform");
 
 }  // namespace sss

@@ -5,6 +5,7 @@
 #include "sss/geom/mesh_repair.h"
 #include "sss/geom/mesh_report.h"
 #include "sss/geom/normals.h"
+#include "sss/geom/rigid.h"
 #include "sss/geom/shapes.h"
 
 #include <fmt/core.h>
@@ -43,27 +44,30 @@ struct ShapeMaker {
 DVec3 transformed(const DMat4& m, const DVec3& p) { return DVec3(m * glm::dvec4(p, 1.0)); }
 
 DMat4 fitted(const FitStep& fit, const DMat4& before, const TriangleMesh& mesh,
-             const std::string& name) {
+             const ObjectSettings& object, const Scene& scene) {
     DBounds box;
     for (const DVec3& p : mesh.positions) box.add(transformed(before, p));
     // A flat object that was rotated has a height of rounding.
     if (!(box.size().y > 1e-9 * box.diagonal()))
-        throw Error(ErrorKind::BadInput, name, "cannot be fitted to a height: it is flat in y",
-                    "rotate it before the fit, or use a scale");
+        throw Error(
+            ErrorKind::BadInput, placeOf(object, scene),
+            fmt::format("\"{}\" cannot be fitted to a height: it is flat in y", object.name),
+            "rotate it before the fit, or use a scale");
     const double scale = fit.heightMm / box.size().y;
     DMat4 m = glm::translate(DMat4(1.0), fit.centre);
     m = glm::scale(m, DVec3(scale));
     return glm::translate(m, -box.centre());
 }
 
-DMat4 resolveTransform(const ObjectSettings& object, const TriangleMesh& mesh) {
+DMat4 resolveTransform(const ObjectSettings& object, const TriangleMesh& mesh, const Scene& scene) {
     DMat4 worldFromObject(1.0);
     for (const TransformStep& step : object.transform) {
         if (const auto* matrix = std::get_if<DMat4>(&step))
             worldFromObject = *matrix * worldFromObject;
         else
-            worldFromObject = fitted(std::get<FitStep>(step), worldFromObject, mesh, object.name) *
-                              worldFromObject;
+            worldFromObject =
+                fitted(std::get<FitStep>(step), worldFromObject, mesh, object, scene) *
+                worldFromObject;
     }
     return worldFromObject;
 }
@@ -184,6 +188,10 @@ void MeshStore::add(const std::string& key, std::shared_ptr<const LoadedMesh> me
     entries_[key] = {std::move(mesh), true};
 }
 
+std::string placeOf(const ObjectSettings& object, const Scene& scene) {
+    return fmt::format("{}:{}:{}", scene.file.string(), object.line, object.column);
+}
+
 void addMesh(Hasher& hasher, const TriangleMesh& mesh) {
     hasher.add(std::span<const DVec3>(mesh.positions));
     hasher.add(std::span<const Vec3>(mesh.normals));
@@ -203,7 +211,9 @@ LoadedObject loadObject(const ObjectSettings& object, const Scene& scene, Report
         loaded.shape = loadMesh(object, mmPerUnit, joins, reporter);
         if (store != nullptr) store->add(key, loaded.shape);
     }
-    loaded.worldFromObject = resolveTransform(object, loaded.mesh());
+    loaded.worldFromObject = resolveTransform(object, loaded.mesh(), scene);
+    // Steps that are sound one by one may not be together.
+    static_cast<void>(polarDecompose(DMat3(loaded.worldFromObject), placeOf(object, scene)));
     return loaded;
 }
 

@@ -24,7 +24,7 @@ struct LoadedMesh {
 /// An object's surface and where it stands.
 struct LoadedObject {
     std::shared_ptr<const LoadedMesh> shape;
-    DMat4 worldFromObject{1.0};  ///< mm, fits resolved
+    DMat4 worldFromObject{1.0};  ///< mm, fits resolved; not singular
 
     const TriangleMesh& mesh() const { return shape->mesh; }
     bool closed() const { return shape->closed; }
@@ -45,6 +45,9 @@ private:
     };
     std::map<std::string, Entry> entries_;
 };
+
+/// "file:line:col" of an object, or of what is loaded as one, for errors.
+std::string placeOf(const ObjectSettings& object, const Scene& scene);
 
 /// Adds the bytes of a mesh to a content hash.
 void addMesh(Hasher& hasher, const TriangleMesh& mesh);

@@ -31,11 +31,11 @@ std::unique_ptr<Volume> loadVolume(const VolumeSettings& settings, const Scene& 
     object.shape = settings.shape;
     object.transform = settings.transform;
     object.normals = NormalsMode::Flat;
+    object.line = settings.line;
+    object.column = settings.column;
     const LoadedObject loaded = loadObject(object, scene, reporter);
-    const std::string where =
-        fmt::format("{}:{}:{}", scene.file.string(), settings.line, settings.column);
     if (!loaded.closed())
-        throw Error(ErrorKind::BadInput, where,
+        throw Error(ErrorKind::BadInput, placeOf(object, scene),
                     fmt::format("the surface of the volume \"{}\" is not closed, so that it has no "
                                 "inside",
                                 settings.name),

@@ -96,8 +96,7 @@ void World::makeBodies(Reporter& reporter) {
             const ObjectSettings& object = scene_.objects[static_cast<std::size_t>(k)];
             if (object.material != first.material)
                 throw Error(
-                    ErrorKind::BadInput,
-                    fmt::format("{}:{}:{}", scene_.file.string(), object.line, object.column),
+                    ErrorKind::BadInput, placeOf(object, scene_),
                     fmt::format("object \"{}\" is in group \"{}\" with \"{}\" but has another "
                                 "material",
                                 object.name, object.group, first.name),

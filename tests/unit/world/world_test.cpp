@@ -219,7 +219,35 @@ TEST(Objects, FlatOnesCannotBeFitted) {
     SceneMaker maker;
     ObjectSettings& object = maker.object(RectangleShape{4, 2}, maker.material(measured("Marble")));
     object.transform = {turned(90, {1, 0, 0}), FitStep{50, DVec3(0)}};
-    EXPECT_THROW(maker.world(), Error);
+    object.line = 7;
+    object.column = 3;
+    try {
+        maker.world();
+        FAIL() << "not refused";
+    } catch (const Error& error) {
+        EXPECT_EQ(error.where(), "test.json:7:3");
+        EXPECT_NE(std::string(error.what()).find("flat in y"), std::string::npos) << error.what();
+    }
+}
+
+// Two squeezes that the scene reader lets through one by one leave nothing of the object.
+TEST(Objects, TransformsThatAreSingularTogetherAreRefusedWhereTheyStand) {
+    SceneMaker maker;
+    ObjectSettings& object = maker.object(BoxShape{DVec3(2)}, maker.material(measured("Marble")));
+    const DMat4 squeeze = glm::scale(DMat4(1), DVec3(1, 1e-8, 1));
+    object.transform = {squeeze};
+    EXPECT_NO_THROW(maker.world());
+    object.transform = {squeeze, squeeze};
+    object.line = 7;
+    object.column = 3;
+    try {
+        maker.world();
+        FAIL() << "not refused";
+    } catch (const Error& error) {
+        EXPECT_EQ(error.kind(), ErrorKind::BadInput);
+        EXPECT_EQ(error.where(), "test.json:7:3");
+        EXPECT_NE(std::string(error.what()).find("singular"), std::string::npos) << error.what();
+    }
 }
 
 TEST(Objects, MeshFilesAreInSceneUnits) {
