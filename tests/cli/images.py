@@ -79,6 +79,50 @@ def read_exr_header(path):
     return attributes
 
 
+EXR_ZIP, EXR_LINES_A_CHUNK = 3, 16
+EXR_TYPES = {0: "I", 1: "e", 2: "f"}
+
+
+def unzip_exr(data, size):
+    """Undoes the ZIP compression of a chunk: differences of bytes, the even ones before the odd."""
+    if len(data) == size:
+        return data  # it would not have become smaller
+    raw = bytearray(zlib.decompress(data))
+    for i in range(1, size):
+        raw[i] = (raw[i - 1] + raw[i] - 128) & 255
+    plain, half = bytearray(size), (size + 1) // 2
+    plain[0::2], plain[1::2] = raw[:half], raw[half:]
+    return bytes(plain)
+
+
+def read_exr_values(path):
+    """{channel: list of its values row by row} of an EXR as they are written here: one part, scan lines,
+    ZIP."""
+    attributes, rest = read_exr(path)
+    if attributes["compression"][0] != EXR_ZIP:
+        raise ValueError(f"{path}: only ZIP is read here")
+    x0, y0, x1, y1 = struct.unpack("<4i", attributes["dataWindow"])
+    width, height = x1 - x0 + 1, y1 - y0 + 1
+    rows, raw, at = [], attributes["channels"], 0
+    while raw[at] != 0:
+        end = raw.index(0, at)
+        kind = EXR_TYPES[struct.unpack("<i", raw[end + 1:end + 5])[0]]
+        rows.append((raw[at:end].decode(), struct.Struct(f"<{width}{kind}")))
+        at = end + 17
+    values = {name: [] for name, _ in rows}
+    at, line_bytes = 8 * -(-height // EXR_LINES_A_CHUNK), sum(row.size for _, row in rows)
+    for first in range(0, height, EXR_LINES_A_CHUNK):
+        lines = min(EXR_LINES_A_CHUNK, height - first)
+        packed = struct.unpack("<ii", rest[at:at + 8])[1]
+        plain, place = unzip_exr(rest[at + 8:at + 8 + packed], lines * line_bytes), 0
+        at += 8 + packed
+        for _ in range(lines):
+            for name, row in rows:
+                values[name] += row.unpack_from(plain, place)
+                place += row.size
+    return values
+
+
 def read_ply(path):
     """(names of the properties, list of tuples) of a binary little-endian PLY of float vertices."""
     head, _, body = path.read_bytes().partition(b"end_header\n")

@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
-"""Runs the fuzzers of the readers in turn until they have made so many executions in all; inputs that
-they stumble over are kept.
+"""Runs the fuzzers of the readers in turn until they have made so many executions in all, also over
+several runs; inputs that they stumble over stay in OUT/found until they are taken away.
 
 fuzzing.py BIN OUT EXECUTIONS, with BIN the folder of a build by the preset "fuzz"."""
 
+import json
 import pathlib
 import re
 import subprocess
@@ -24,11 +25,10 @@ MOST_SECONDS = 3 * 3600
 
 
 def fuzz(target, bin_folder, out, seconds):
-    """(executions, findings) of one reader."""
+    """Executions of one reader; what it stumbles over is left in the folder "found"."""
     kept, found = out / "corpus" / target, out / "found" / target
     kept.mkdir(parents=True, exist_ok=True)
     found.mkdir(parents=True, exist_ok=True)
-    before = set(found.iterdir())
     command = ["nice", "-n", "19", str(bin_folder / f"sss-fuzz-{target}"),
                f"-max_total_time={seconds}", "-timeout=10", "-rss_limit_mb=2048",
                "-malloc_limit_mb=600", f"-max_len={LONGEST.get(target, 4096)}",
@@ -40,27 +40,46 @@ def fuzz(target, bin_folder, out, seconds):
     words = done.stderr.decode(errors="replace")
     (out / f"fuzz-{target}.log").write_text(words)
     count = re.search(r"number_of_executed_units: (\d+)", words)
-    return int(count.group(1)) if count else 0, sorted(set(found.iterdir()) - before)
+    return int(count.group(1)) if count else 0
+
+
+class Tally:
+    """Executions of each reader so far, kept in a file so that a run that was stopped goes on."""
+
+    def __init__(self, file, least):
+        self.file = file
+        self.executions = dict.fromkeys(TARGETS, 0)
+        if file.exists():
+            self.executions |= json.loads(file.read_text())
+        if self.total() >= least:  # a whole run's: this is the next one
+            self.executions = dict.fromkeys(TARGETS, 0)
+
+    def total(self):
+        return sum(self.executions.values())
+
+    def add(self, target, count):
+        self.executions[target] += count
+        self.file.write_text(json.dumps(self.executions) + "\n")
 
 
 def all_rows(bin_folder, out, least=EXECUTIONS):
-    executions, findings = dict.fromkeys(TARGETS, 0), {target: [] for target in TARGETS}
+    tally = Tally(out / "fuzzing-executions.json", least)
     began = time.monotonic()
-    while sum(executions.values()) < least and time.monotonic() - began < MOST_SECONDS:
-        before = sum(executions.values())
+    while tally.total() < least and time.monotonic() - began < MOST_SECONDS:
+        before = tally.total()
         for target in TARGETS:
-            count, found = fuzz(target, bin_folder, out, SECONDS_A_TURN)
-            executions[target] += count
-            findings[target] += found
-        if sum(executions.values()) == before:
+            tally.add(target, fuzz(target, bin_folder, out, SECONDS_A_TURN))
+        print(f"fuzzing: {tally.total():,} executions of {least:,}", flush=True)
+        if tally.total() == before:
             break  # not one of them runs
     for target in TARGETS:
         row = Row("fuzzing", f"{target}: no crash, hang, leak or wrong answer")
-        row.cases, row.worst = executions[target], len(findings[target])
-        row.worst_at = ", ".join(str(path) for path in findings[target])
+        findings = sorted((out / "found" / target).iterdir())
+        row.cases, row.worst = tally.executions[target], len(findings)
+        row.worst_at = ", ".join(str(path) for path in findings)
         yield row
     row = Row("fuzzing", f"all readers: executions that are missing of {least:,}")
-    row.cases = sum(executions.values())
+    row.cases = tally.total()
     row.worst = max(0, least - row.cases)
     row.worst_at = f"{row.cases} in all"
     yield row

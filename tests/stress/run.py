@@ -1,7 +1,9 @@
 #!/usr/bin/env python3
 """Tries what people should not feed a renderer, and sums up what survived as a table and as JSON.
 
-run.py [--quick | --full] [--out FOLDER]; run.sh builds first. Exit code 0 only if all survived."""
+run.py [--quick | --full] [--only PART... | --kept | --list] [--record]; run.sh builds first. Parts that
+are not run stand in the table as they were last measured. Exit code 0 only if all that was run
+survived."""
 
 import argparse
 import json
@@ -9,43 +11,13 @@ import os
 import pathlib
 import platform
 import re
-import subprocess
 import sys
-import time
 
-import coverage
-import fuzzing
-import memory_check
-import programs
-from harness import BIN, SOURCE
+from harness import SOURCE
+from parts import all_parts, kept_part, run_part
 
-
-def numbers(full, out):
-    """The rows of sss-stress, which measures inside the library."""
-    file = out / "numbers.json"
-    file.unlink(missing_ok=True)
-    subprocess.run([str(BIN / "sss-stress"), "--full" if full else "--quick", "--json", str(file)],
-                   stdin=subprocess.DEVNULL, check=False)
-    if not file.exists():
-        return [{"subject": "numbers", "name": "sss-stress ends by itself", "cases": 1, "worst": 1,
-                 "limit": 0, "worstAt": "it did not", "passed": False}]
-    return json.loads(file.read_text())
-
-
-def tests_passed(log):
-    """What run.sh wrote of the tests of the coverage build: a line that fails is no line run well."""
-    row = programs.Row("coverage", "tests that fail in the coverage build")
-    found = re.search(r"(\d+) tests failed out of (\d+)",
-                      log.read_text(errors="replace") if log.exists() else "")
-    row.cases = int(found.group(2)) if found else 0
-    row.worst = int(found.group(1)) if found else 1
-    row.worst_at = str(log)
-    yield row
-
-
-def print_row(row):
-    print(f"{'ok    ' if row['passed'] else 'FAILED'} {row['subject']:9} {row['name']}: "
-          f"{row['cases']} cases {row['worstAt'] if not row['passed'] else ''}", flush=True)
+# The table of the last recorded run stands in README.md between these two lines.
+BEGIN, END = "<!-- written by run.py --record -->\n", "<!-- end -->\n"
 
 
 def machine():
@@ -54,21 +26,32 @@ def machine():
     return f"{names[0].strip() if names else platform.machine()}, {os.cpu_count()} threads"
 
 
-def markdown(rows, scope):
-    survived = sum(1 for row in rows if row["passed"])
-    lines = [f"`tests/stress/run.sh {scope}`, {time.strftime('%Y-%m-%d')}, {machine()}: "
+def measured_at(part):
+    return f"{part['date']}, {part['commit']}"
+
+
+def table_line(row, at):
+    mark = "survived" if row["passed"] else "**FAILED**"
+    where = "" if row["passed"] else row["worstAt"].replace("|", "/").replace("\n", " ")
+    cells = [mark, row["subject"], row["name"], f"{row['cases']:,}", f"{row['worst']:.3g}",
+             f"{row['limit']:g}", where]
+    return "| " + " | ".join(cells + ([at] if at else [])) + " |"
+
+
+def markdown(found, scope):
+    """The table of all parts, with when each was measured if that was not at once."""
+    rows = [(row, part) for part in found for row in part["rows"]]
+    survived = sum(1 for row, _ in rows if row["passed"])
+    moments = {measured_at(part) for part in found}
+    at_once = len(moments) == 1
+    minutes = sum(part["seconds"] for part in found) / 60
+    when = f"{moments.pop()}, " if at_once else ""
+    lines = [f"`tests/stress/run.sh {scope}`, {when}{machine()}, {minutes:.0f} minutes: "
              f"{survived} of {len(rows)} survived.", "",
-             "| | subject | what | cases | worst | limit | |", "|---|---|---|---:|---:|---:|---|"]
-    for row in rows:
-        mark = "survived" if row["passed"] else "**FAILED**"
-        where = "" if row["passed"] else row["worstAt"].replace("|", "/").replace("\n", " ")
-        lines.append(f"| {mark} | {row['subject']} | {row['name']} | {row['cases']:,} | "
-                     f"{row['worst']:.3g} | {row['limit']:g} | {where} |")
+             "| | subject | what | cases | worst | limit | |" + ("" if at_once else " measured |"),
+             "|---|---|---|---:|---:|---:|---|" + ("" if at_once else "---|")]
+    lines += [table_line(row, "" if at_once else measured_at(part)) for row, part in rows]
     return "\n".join(lines) + "\n"
-
-
-# The table of the last run stands in README.md between these two lines.
-BEGIN, END = "<!-- written by run.py --record -->\n", "<!-- end -->\n"
 
 
 def record(table):
@@ -81,28 +64,40 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--quick", action="store_true", help="numbers, meshes and memory in brief")
     parser.add_argument("--full", action="store_true", help="all of README.md; needs the builds of run.sh")
+    chosen = parser.add_mutually_exclusive_group()
+    chosen.add_argument("--only", action="extend", nargs="+", default=[], metavar="PART")
+    chosen.add_argument("--kept", action="store_true", help="run nothing: the table of what was measured")
+    chosen.add_argument("--list", action="store_true", help="print the names of the parts")
     parser.add_argument("--out", type=pathlib.Path, default=SOURCE / "build/stress")
     parser.add_argument("--record", action="store_true", help="put the table into README.md")
     options = parser.parse_args()
     full = options.full and not options.quick
-    options.out.mkdir(parents=True, exist_ok=True)
+    scope = "--full" if full else "--quick"
+    parts = {name: rows_of for name, (only_full, rows_of) in all_parts().items() if full or not only_full}
+    if options.list:
+        print("\n".join(parts))
+        return
+    for name in options.only:
+        if name not in parts:
+            parser.error(f'no part "{name}" with {scope}; there are {", ".join(parts)}')
+    out = (options.out / scope[2:]).resolve()
+    out.mkdir(parents=True, exist_ok=True)
 
-    rows = numbers(full, options.out)
-    more = [programs.all_rows(full)]
-    if full:
-        more += [memory_check.all_rows(), fuzzing.all_rows(SOURCE / "build/fuzz/bin", options.out),
-                 tests_passed(SOURCE / "build/coverage-tests.log"),
-                 coverage.all_rows(SOURCE / "build/coverage", options.out)]
-    for found in more:
-        for row in found:
-            rows.append(row.json())
-            print_row(rows[-1])
-    (options.out / "summary.json").write_text(json.dumps(rows, indent=1) + "\n")
-    (options.out / "summary.md").write_text(markdown(rows, "--full" if full else "--quick"))
+    failed = 0
+    for name in [] if options.kept else options.only or parts:
+        part = run_part(name, parts[name], full, out)
+        failed += sum(1 for row in part["rows"] if not row["passed"])
+    found = [part for part in (kept_part(name, out) for name in parts) if part]
+    missing = sorted(set(parts) - {part["part"] for part in found})
+    (options.out / "summary.json").write_text(json.dumps(found, indent=1) + "\n")
+    (options.out / "summary.md").write_text(markdown(found, scope))
+    if missing:
+        print(f"not measured yet: {', '.join(missing)}")
     if options.record:
-        record(markdown(rows, "--full" if full else "--quick"))
-    failed = [row for row in rows if not row["passed"]]
-    print(f"{len(rows) - len(failed)} passed, {len(failed)} failed; {options.out / 'summary.md'}")
+        if missing:
+            sys.exit("nothing was recorded: the table is not whole")
+        record(markdown(found, scope))
+    print(f"{failed} of what was run failed; {options.out / 'summary.md'}")
     sys.exit(1 if failed else 0)
 
 

@@ -1,4 +1,5 @@
 #include "fuzz/repair.h"
+#include "numbers/damage.h"
 #include "numbers/passes.h"
 #include "numbers/subjects.h"
 #include "sss/base/error.h"
@@ -12,7 +13,6 @@
 
 #include <chrono>
 #include <cstring>
-#include <functional>
 
 namespace sss::stress {
 namespace {
@@ -20,28 +20,6 @@ namespace {
 using testing::readFile;
 using testing::TemporaryFolder;
 using testing::writeFile;
-
-/// A reporter that counts warnings.
-class CountingReporter final : public Reporter {
-public:
-    void info(std::string_view, std::string_view) override {}
-    void warn(std::string_view, std::string_view) override { ++warnings; }
-    void progress(std::string_view, double, double, bool) override {}
-    int warnings = 0;
-};
-
-// Calls `visit` with every damaged form of `whole`: cut at every 64 bytes, and with a bit flipped
-// in every 97th byte.
-void forEachDamage(const std::string& whole,
-                   const std::function<void(const std::string&, const std::string&)>& visit) {
-    for (std::size_t size = 0; size < whole.size(); size += 64)
-        visit(whole.substr(0, size), fmt::format("cut at byte {}", size));
-    for (std::size_t place = 0; place < whole.size(); place += 97) {
-        std::string flipped = whole;
-        flipped[place] = static_cast<char>(flipped[place] ^ (1 << place % 8));
-        visit(flipped, fmt::format("bit {} of byte {} flipped", place % 8, place));
-    }
-}
 
 // Whether opening it ends in an error that names the file and says what is wrong.
 bool isRefused(const std::filesystem::path& file, const Passes& passes) {

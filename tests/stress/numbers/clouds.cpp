@@ -2,6 +2,8 @@
 
 #include "sss/base/rng.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <numeric>
 
@@ -12,6 +14,9 @@ float spread(std::uint32_t index, std::uint32_t salt) {
     Sampler sampler(index, salt);
     return 20 * sampler.next1D() - 10;
 }
+
+// Of the slab that some profiles are for, in smallest mean free paths.
+constexpr double kSlabPerMfp = 6;
 
 Vec3 inCube(std::uint32_t i, std::uint32_t /*count*/) {
     return {spread(i, 1), spread(i, 2), spread(i, 3)};
@@ -112,14 +117,77 @@ std::vector<Vec3> receiversFor(const HardCloud& cloud, std::size_t count) {
     return receivers;
 }
 
-DRgb sumByProfiles(const HardCloud& cloud, const testing::Optics& optics, const Vec3& receiver) {
+HardOptics::HardOptics(std::string name_, const Medium& medium, std::string_view profile,
+                       double unit)
+    : name(std::move(name_)),
+      optics(medium, profile, kSlabPerMfp),
+      table(optics.pointers(), 1e7 * unit, 0.5 * unit),
+      profile_(profile),
+      cellRadiusMm_(0.5 * unit) {}
+
+HardOptics HardOptics::inUnit(double unit) const {
+    Medium medium = optics.medium;
+    medium.sigmaA /= unit;
+    medium.sigmaS /= unit;
+    return {name, medium, profile_, unit};
+}
+
+namespace {
+
+struct Choice {
+    std::string_view medium, profile;
+};
+// The costly ones last.
+constexpr Choice kChoices[] = {
+    {"Marble", "dipole"},
+    {"Skimmilk", "better_dipole"},
+    {"Ketchup", "normalized_diffusion"},
+    {"Wholemilk", "multipole"},
+    {"Skin2", "multipole_transmittance"},
+    {"Apple", "normalized_diffusion_dmfp"},
+    {"no absorption", "dipole"},
+    {"1 - alpha' of 1e-9, 0.1 and 0.9", "better_dipole"},
+    {"Skin1", "photon_beam"},
+    {"Marble", "photon_beam_single"},
+};
+constexpr std::size_t kCostly = 2;
+
+// Of a mean free path of 1 mm, absorbing the stated share; or measured.
+Medium mediumOf(std::string_view name) {
+    Medium medium;
+    medium.sigmaA = DRgb(0);
+    if (const MeasuredMedium* found = findMeasuredMedium(name)) return toMedium(*found);
+    if (name != "no absorption") medium.sigmaA = DRgb(1e-9, 0.1, 0.9);
+    medium.sigmaS = 1.0 - medium.sigmaA;
+    return medium;
+}
+
+}  // namespace
+
+std::span<const HardOptics> hardOptics(Scope scope) {
+    static std::vector<HardOptics> made;
+    const std::size_t wanted = std::size(kChoices) - (scope == Scope::Full ? 0 : kCostly);
+    made.reserve(std::size(kChoices));
+    while (made.size() < wanted) {
+        const Choice& choice = kChoices[made.size()];
+        made.emplace_back(fmt::format("{} by {}", choice.medium, choice.profile),
+                          mediumOf(choice.medium), choice.profile);
+    }
+    return {made.data(), wanted};
+}
+
+DRgb sumByProfiles(const HardCloud& cloud, const testing::Optics& optics, double cellRadiusMm,
+                   const Vec3& receiver) {
+    const RegularisedProfile profiles[] = {{optics.profile(0), cellRadiusMm},
+                                           {optics.profile(1), cellRadiusMm},
+                                           {optics.profile(2), cellRadiusMm}};
     DRgb sum{0};
     for (std::size_t i = 0; i < cloud.points.size(); ++i) {
         if (isZero(cloud.irradiance[i])) continue;
         const double r = glm::length(DVec3(cloud.points[i].position) - DVec3(receiver));
         for (int c = 0; c < 3; ++c)
-            sum[c] += optics.profile(c).reflectance(r) * double{cloud.points[i].areaMm2} *
-                      double{cloud.irradiance[i][c]};
+            sum[c] +=
+                profiles[c](r) * double{cloud.points[i].areaMm2} * double{cloud.irradiance[i][c]};
     }
     return sum;
 }

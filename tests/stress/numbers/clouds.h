@@ -1,4 +1,5 @@
 #pragma once
+#include "numbers/report.h"
 #include "sss/cloud/diffusion_sum.h"
 #include "sss/cloud/octree.h"
 #include "sss/cloud/point_cloud.h"
@@ -44,8 +45,29 @@ HardCloud makeCloud(const Arrangement& where, const Lighting& light, std::uint32
 /// On points, between them, near and far.
 std::vector<Vec3> receiversFor(const HardCloud& cloud, std::size_t count);
 
-/// Sum over all points in double, by the profiles themselves rather than by the sum's table.
-DRgb sumByProfiles(const HardCloud& cloud, const testing::Optics& optics, const Vec3& receiver);
+/// What diffusion does in a medium, and the table of it for clouds of arrangements().
+struct HardOptics {
+    std::string name;
+    testing::Optics optics;
+    KernelTable table;
+
+    /// `unit`: mm of the optics' unit of length, which clouds are scaled by as well.
+    HardOptics(std::string name, const Medium& medium, std::string_view profile, double unit = 1);
+    double cellRadiusMm() const { return cellRadiusMm_; }
+    HardOptics inUnit(double unit) const;
+
+private:
+    std::string_view profile_;
+    double cellRadiusMm_;
+};
+/// Measured and made media, from no absorption to hardly any scattering, under all profiles; in
+/// brief without the costly ones, photon beams.
+std::span<const HardOptics> hardOptics(Scope scope);
+
+/// Sum over all points in double, by the profiles themselves rather than by the sum's table: by
+/// what a sample's cell makes of them where they are singular (RegularisedProfile).
+DRgb sumByProfiles(const HardCloud& cloud, const testing::Optics& optics, double cellRadiusMm,
+                   const Vec3& receiver);
 
 /// The sum as pass 2 takes it, all receivers in one group.
 std::vector<Rgb> sumByTree(const HardCloud& cloud, const KernelTable& table,

@@ -1,5 +1,6 @@
 // sss-stress: tries what people should not feed a renderer and says what survived, one line a row;
-// with --json FILE also for tests/stress/run.py. Exit code 0 only if all did.
+// with --json FILE also for tests/stress/run.py. Exit code 0 only if all did. --list names the
+// subjects and tries nothing.
 #include "numbers/subjects.h"
 #include "sss/app/program.h"
 #include "sss/base/atomic_file.h"
@@ -20,15 +21,17 @@ struct Subject {
     void (*run)(Report&, Scope);
 };
 constexpr Subject kSubjects[] = {
-    {"optics", stressOptics},      {"media", stressMedia},   {"surfaces", stressSurfaces},
-    {"sums", stressSums},          {"scenes", stressScenes}, {"caches", stressCaches},
-    {"memory", stressAllocations}, {"corpus", stressCorpus}, {"damage", stressMutations},
+    {"optics", stressOptics},    {"media", stressMedia},        {"surfaces", stressSurfaces},
+    {"sums", stressSums},        {"scenes", stressScenes},      {"caches", stressCaches},
+    {"stages", stressStages},    {"memory", stressAllocations}, {"corpus", stressCorpus},
+    {"damage", stressMutations},
 };
 
 struct Options {
     Scope scope = Scope::Quick;
     std::string json;
     std::string_view only;
+    bool isList = false;
 };
 
 Options readOptions(int argc, const char* const* argv) {
@@ -39,6 +42,8 @@ Options readOptions(int argc, const char* const* argv) {
             options.scope = Scope::Quick;
         else if (word == "--full")
             options.scope = Scope::Full;
+        else if (word == "--list")
+            options.isList = true;
         else if (word == "--json" && i + 1 < argc)
             options.json = argv[++i];
         else if (word == "--only" && i + 1 < argc)
@@ -46,13 +51,17 @@ Options readOptions(int argc, const char* const* argv) {
         else
             throw Error(ErrorKind::Usage, "command line",
                         fmt::format("\"{}\" is not understood", word),
-                        "sss-stress [--quick | --full] [--only SUBJECT] [--json FILE]");
+                        "sss-stress [--list | --quick | --full] [--only SUBJECT] [--json FILE]");
     }
     return options;
 }
 
 int run(int argc, const char* const* argv) {
     const Options options = readOptions(argc, argv);
+    if (options.isList) {
+        for (const Subject& subject : kSubjects) fmt::print("{}\n", subject.name);
+        return 0;
+    }
     Report report;
     std::size_t told = 0;
     bool isPassed = true;

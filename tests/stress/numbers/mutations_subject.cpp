@@ -24,10 +24,10 @@ struct Share {
 };
 // By what one costs; 10^7 in all.
 constexpr Share kShares[] = {
-    {"scene", "scene.dict", 9000, 1'500'000}, {"cache", "", 1000, 200'000},
-    {"exitance", "", 9000, 1'500'000},        {"obj", "mesh.dict", 9000, 1'500'000},
-    {"ply", "mesh.dict", 9000, 1'500'000},    {"off", "mesh.dict", 9000, 1'500'000},
-    {"stl", "mesh.dict", 9000, 1'500'000},    {"exr", "", 3000, 800'000},
+    {"scene", "scene.dict", 4000, 1'500'000}, {"cache", "", 500, 200'000},
+    {"exitance", "", 4000, 1'500'000},        {"obj", "mesh.dict", 4000, 1'500'000},
+    {"ply", "mesh.dict", 4000, 1'500'000},    {"off", "mesh.dict", 4000, 1'500'000},
+    {"stl", "mesh.dict", 4000, 1'500'000},    {"exr", "", 1500, 800'000},
 };
 
 // The input at hand, for when the reader ends the process.

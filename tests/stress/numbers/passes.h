@@ -61,11 +61,13 @@ private:
     std::vector<BodyReport> reports_;
 };
 
-/// One body lit from one side, with few points and samples.
-inline testing::SceneMaker bodyScene(Shape shape, const Medium& medium) {
+/// One body lit from one side, with few points and samples; diffusion by the profile, or solved on
+/// the shape.
+inline testing::SceneMaker bodyScene(Shape shape, const Medium& medium, bool onShape = false) {
     testing::SceneMaker maker;
     TranslucentMaterial material;
     material.medium = medium;
+    material.onShape = onShape;
     maker.object(std::move(shape), maker.material(material));
     maker.light(DirectionalLight{{0, -1, -1}, Rgb(1)});
     maker.scene.camera.position = {0, 0, 1e8};

@@ -18,6 +18,8 @@ void stressSurfaces(Report& report, Scope scope);
 void stressScenes(Report& report, Scope scope);
 /// Caches cut short, damaged, and written by a liar.
 void stressCaches(Report& report, Scope scope);
+/// Folders of stages with one of the files damaged.
+void stressStages(Report& report, Scope scope);
 /// Pass 1 with one of its allocations failing.
 void stressAllocations(Report& report, Scope scope);
 /// Every input that tests/stress/corpus holds, as the fuzzers feed it.
