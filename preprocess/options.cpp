@@ -1,14 +1,8 @@
 #include "options.h"
 
 #include "sss/app/stage_chain.h"
-#include "sss/base/error.h"
-#include "sss/base/frame_list.h"
-#include "sss/scene/material_override.h"
 
 #include <CLI/CLI.hpp>
-#include <fmt/core.h>
-
-#include <cmath>
 
 namespace {
 
@@ -66,28 +60,19 @@ Exit codes: 0 done, 1 internal error, 2 usage, 3 bad input, 4 could not read or 
 (exit codes are those of both programs)
 )";
 
-[[noreturn]] void usage(const std::string& where, const std::string& what) {
-    throw sss::Error(sss::ErrorKind::Usage, where, what, "see sss-preprocess --help");
-}
+constexpr sss::ProgramText kProgram{"sss-preprocess", kHelp};
 
 void check(const PreprocessOptions& o) {
+    const auto usage = [](const char* where, const std::string& what) {
+        sss::usageError(kProgram, where, what);
+    };
     if (!o.info.empty()) return;
     if (o.json && !o.printEstimate) usage("--json", "goes with --info and --print-estimate");
     if (o.scene.empty()) usage("SCENE", "no scene file given");
-    if (o.frames.size() > 1 && !o.printEstimate && !sss::isFolderName(o.cache) &&
-        !sss::hasFrameField(o.cache.string()))
-        usage("--output", fmt::format("{} would hold the last of {} frames only: give the number a "
-                                      "place (####), or name a folder (DIR/)",
-                                      o.cache.string(), o.frames.size()));
+    if (!o.printEstimate && !sss::isFolderName(o.cache))
+        sss::requireNameForEach(kProgram, o.cache, o.frames, "name a folder (DIR/)");
     if (o.cache.empty() && !o.printEstimate) usage("--output", "no cache file given (-o CACHE)");
-    if (o.tolerance && !(*o.tolerance > 0 && *o.tolerance <= 0.5))
-        usage("--tolerance", fmt::format("{} is not in (0, 0.5]", *o.tolerance));
-    if (o.spacingMm && !(*o.spacingMm > 0 && std::isfinite(*o.spacingMm)))
-        usage("--spacing", fmt::format("{} mm is not a positive length", *o.spacingMm));
-    if (o.metersPerUnit && !(*o.metersPerUnit > 0 && std::isfinite(*o.metersPerUnit)))
-        usage("--meters-per-unit", fmt::format("{} is not a positive length", *o.metersPerUnit));
-    if (o.maxPoints == 0) usage("--max-points", "must be at least 1");
-    if (o.threads > 1024) usage("--threads", fmt::format("{} is more than 1024", o.threads));
+    sss::requireLength(kProgram, "--spacing", o.spacingMm);
 }
 
 }  // namespace
@@ -95,46 +80,13 @@ void check(const PreprocessOptions& o) {
 std::optional<PreprocessOptions> readOptions(int argc, const char* const* argv) {
     PreprocessOptions o;
     CLI::App app;
-    app.set_help_flag();
-    bool help = false, version = false;
-    std::string boundary, frames, progress;
-    app.add_flag("-h,--help", help);
-    app.add_flag("--version", version);
-    app.add_option("scene", o.scene);
     app.add_option("-o,--output", o.cache);
-    auto* framesOption = app.add_option("--frames", frames);
-    app.add_flag("--explain", o.explain);
     app.add_flag("--print-estimate", o.printEstimate);
-    app.add_option("--progress", progress);
     app.add_option("--info", o.info);
     app.add_flag("--json", o.json);
     app.add_option("--export-ply", o.exportPly);
-    app.add_option("--stats", o.stats);
     app.add_option("--spacing", o.spacingMm);
-    app.add_option("--tolerance", o.tolerance);
-    app.add_option("--meters-per-unit", o.metersPerUnit);
-    app.add_option("--model", o.model);
-    app.add_option("--boundary", boundary);
-    app.add_option("--seed", o.seed)->check(CLI::NonNegativeNumber);
-    app.add_option("--max-points", o.maxPoints)->check(CLI::NonNegativeNumber);
-    app.add_option("--threads", o.threads)->check(CLI::NonNegativeNumber);
-    app.add_flag("--quiet", o.quiet);
-    app.add_flag("--strict", o.strict);
-    try {
-        app.parse(argc, argv);
-    } catch (const CLI::ParseError& e) {
-        usage("command line", e.what());
-    }
-    if (help || version) {
-        if (help)
-            fmt::print(fmt::runtime(kHelp), SSS_VERSION);
-        else
-            fmt::print("sss-preprocess {}\n", SSS_VERSION);
-        return std::nullopt;
-    }
-    if (framesOption->count() > 0) o.frames = sss::parseFrames(frames, "--frames");
-    if (!progress.empty()) o.progress = sss::progressStyle(progress, "--progress");
-    if (!boundary.empty()) o.boundary = sss::boundaryModel(boundary, "--boundary");
+    if (!sss::readCommandLine(app, o, kProgram, argc, argv)) return std::nullopt;
     check(o);
     return o;
 }

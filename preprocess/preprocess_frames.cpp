@@ -1,27 +1,24 @@
 #include "preprocess_frames.h"
 
 #include "sss/app/estimate.h"
+#include "sss/app/frame_run.h"
 #include "sss/app/scene_frames.h"
 #include "sss/app/stage_chain.h"
-#include "sss/app/terminal_reporter.h"
 #include "sss/base/atomic_file.h"
 #include "sss/base/frame_list.h"
-#include "sss/base/parallel.h"
 #include "sss/cloud/ply_export.h"
-#include "sss/scene/material_override.h"
 
 #include <fmt/core.h>
+
+#include <array>
 
 namespace {
 
 using namespace sss;
 
 void applyOverrides(Scene& scene, const PreprocessOptions& options) {
-    if (options.tolerance) scene.quality.tolerance = *options.tolerance;
+    options.applyTo(scene);
     if (options.spacingMm) scene.quality.spacingMm = *options.spacingMm;
-    if (options.seed) scene.quality.seed = *options.seed;
-    if (!options.model.empty()) setModel(scene, options.model, "--model");
-    if (options.boundary) setBoundary(scene, *options.boundary);
 }
 
 // Points of all bodies, in the world's space moved back to the scene's.
@@ -156,17 +153,8 @@ private:
 }  // namespace
 
 void preprocessFrames(const PreprocessOptions& options) {
-    RunStats stats("sss-preprocess");
-    TerminalOptions terminal;
-    terminal.quiet = options.quiet;
-    terminal.progress = options.progress;
-    TerminalReporter log(terminal);
-    OnceReporter reporter(log);
-    const ThreadLimit threads(options.threads);
-    for (const auto& output : {options.stats, options.exportPly})
-        if (!output.empty()) requireWritable(output);
-    FramePreprocessor(options, log, reporter, stats).run();
-    stats.value("threads", ThreadLimit::current());
-    if (!options.stats.empty()) stats.writeStats(options.stats);
-    if (options.strict) log.requireNoWarnings();
+    runFrames("sss-preprocess", options, std::array{options.exportPly},
+              [&](TerminalReporter& log, Reporter& reporter, RunStats& stats) {
+                  FramePreprocessor(options, log, reporter, stats).run();
+              });
 }

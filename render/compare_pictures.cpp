@@ -1,5 +1,6 @@
 #include "compare_pictures.h"
 
+#include "channel_names.h"
 #include "sss/base/error.h"
 #include "sss/base/json.h"
 #include "sss/base/near_name.h"
@@ -66,9 +67,8 @@ struct Comparison {
 };
 
 bool isColour(const ImageLayer& layer) {
-    constexpr std::array kNames{"R", "G", "B"};
-    return layer.channels.size() >= kNames.size() &&
-           std::equal(kNames.begin(), kNames.end(), layer.channels.begin());
+    return layer.channels.size() >= kChannelNames.size() &&
+           std::equal(kChannelNames.begin(), kChannelNames.end(), layer.channels.begin());
 }
 
 // JSON has no numbers that are not finite.

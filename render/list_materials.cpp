@@ -1,5 +1,6 @@
 #include "list_materials.h"
 
+#include "channel_names.h"
 #include "sss/base/json.h"
 #include "sss/medium/dipole.h"
 #include "sss/medium/measured_media.h"
@@ -13,14 +14,12 @@ namespace {
 
 using namespace sss;
 
-constexpr std::array kChannels{"R", "G", "B"};
-
 std::vector<std::string> warningsOf(const Medium& medium) {
     // Of the medium alone: how large the object is, is not known here.
     return diffusionWarnings(medium, std::numeric_limits<double>::infinity());
 }
 
-JsonValue triple(const DRgb& v) { return JsonValue::array().push(v.x).push(v.y).push(v.z); }
+JsonValue jsonOf(const DRgb& v) { return JsonValue::array().push(v.x).push(v.y).push(v.z); }
 
 template <typename Quantity>
 DRgb perChannel(const Medium& medium, const Quantity& quantity) {
@@ -44,14 +43,14 @@ JsonValue entryOf(const MeasuredMedium& measured) {
     entry.set("name", measured.name)
         .set("paper", measured.source)
         .set("unit", "mm^-1")
-        .set("sigmaSPrimePerMm", triple(reducedScattering(medium)))
-        .set("sigmaAPerMm", triple(medium.sigmaA))
-        .set("sigmaSPerMm", measured.hasScattering ? triple(medium.sigmaS) : JsonValue())
-        .set("g", measured.hasScattering ? triple(medium.g) : JsonValue())
+        .set("sigmaSPrimePerMm", jsonOf(reducedScattering(medium)))
+        .set("sigmaAPerMm", jsonOf(medium.sigmaA))
+        .set("sigmaSPerMm", measured.hasScattering ? jsonOf(medium.sigmaS) : JsonValue())
+        .set("g", measured.hasScattering ? jsonOf(medium.g) : JsonValue())
         .set("eta", measured.eta)
-        .set("reducedAlbedo", triple(reducedAlbedo(medium)))
-        .set("dipoleTotal", triple(dipoleTotal(medium)))
-        .set("meanFreePathMm", triple(medium.meanFreePathMm()));
+        .set("reducedAlbedo", jsonOf(reducedAlbedo(medium)))
+        .set("dipoleTotal", jsonOf(dipoleTotal(medium)))
+        .set("meanFreePathMm", jsonOf(medium.meanFreePathMm()));
     JsonValue warnings = JsonValue::array();
     for (const std::string& sentence : warningsOf(medium)) warnings.push(sentence);
     entry.set("warnings", warnings);
@@ -74,7 +73,7 @@ void printTable() {
             const std::string g = measured.hasScattering ? fmt::format("{:.4g}", medium.g[c]) : "-";
             out += fmt::format(
                 "{:<25} {} {:>8.5g} {:>10.5g} {:>7} {:>5} {:>8.4f} {:>8.4f} {:>9.4g}\n",
-                c == 0 ? measured.name : "", kChannels[static_cast<std::size_t>(c)], reduced[c],
+                c == 0 ? measured.name : "", kChannelNames[static_cast<std::size_t>(c)], reduced[c],
                 medium.sigmaA[c], g, measured.eta, albedo[c], total[c], path[c]);
         }
         for (const std::string& sentence : warningsOf(medium)) out += "    ! " + sentence + "\n";

@@ -21,7 +21,7 @@ using namespace sss;
 constexpr const char* kWhere = "--profile";
 constexpr double kDefaultEta = 1.3;  // as in a scene file
 
-[[noreturn]] void usage(const std::string& what, const std::string& hint = {}) {
+[[noreturn]] void badArgument(const std::string& what, const std::string& hint = {}) {
     throw Error(ErrorKind::Usage, kWhere, what, hint);
 }
 
@@ -45,11 +45,12 @@ double numberOf(const std::string& text, const Key& key) {
     char* end = nullptr;
     const double value = std::strtod(text.c_str(), &end);
     const bool whole = !text.empty() && *end == '\0' && std::isfinite(value);
-    if (!whole) usage(fmt::format("{} of \"{}\" is not a number", inQuotes(text), key.name));
+    if (!whole) badArgument(fmt::format("{} of \"{}\" is not a number", inQuotes(text), key.name));
     if (value < key.low || value > key.high || (key.openLow && value == key.low) ||
         (key.openHigh && value == key.high))
-        usage(fmt::format("{} = {} is not in {}{}, {}{}", key.name, text, key.openLow ? '(' : '[',
-                          key.low, key.high, key.openHigh ? ')' : ']'));
+        badArgument(fmt::format("{} = {} is not in {}{}, {}{}", key.name, text,
+                                key.openLow ? '(' : '[', key.low, key.high,
+                                key.openHigh ? ')' : ']'));
     return value;
 }
 
@@ -77,18 +78,18 @@ Values valuesOf(const std::string& text) {
         for (const Key& k : kKeys)
             if (k.name == name) key = &k;
         if (key == nullptr || equals == std::string::npos)
-            usage(fmt::format("{} is no KEY=VALUE of a medium", inQuotes(part)),
-                  nameHint(name, names));
+            badArgument(fmt::format("{} is no KEY=VALUE of a medium", inQuotes(part)),
+                        nameHint(name, names));
         const auto numbers = split(part.substr(equals + 1), "/");
         if (numbers.size() != 1 && (numbers.size() != 3 || key->oneValue))
-            usage(fmt::format("\"{}\" has {} values", name, numbers.size()),
-                  key->oneValue ? "give one" : "give one, or three as RED/GREEN/BLUE");
+            badArgument(fmt::format("\"{}\" has {} values", name, numbers.size()),
+                        key->oneValue ? "give one" : "give one, or three as RED/GREEN/BLUE");
         DRgb value;
         for (int c = 0; c < 3; ++c)
             value[c] =
                 numberOf(numbers[numbers.size() == 3 ? static_cast<std::size_t>(c) : 0], *key);
         if (!values.emplace(key->name, value).second)
-            usage(fmt::format("\"{}\" is given twice", name));
+            badArgument(fmt::format("\"{}\" is given twice", name));
     }
     return values;
 }
@@ -122,9 +123,10 @@ Medium mediumOfNumbers(const std::string& text, const std::string& model,
             return medium;
         }
     }
-    usage(fmt::format("{} does not describe a medium in one way", inQuotes(text)),
-          "give sigma_a and sigma_s or sigma_s_prime (mm^-1), or color and mfp or dmfp (mm); eta "
-          "and g may be added");
+    badArgument(
+        fmt::format("{} does not describe a medium in one way", inQuotes(text)),
+        "give sigma_a and sigma_s or sigma_s_prime (mm^-1), or color and mfp or dmfp (mm); eta "
+        "and g may be added");
 }
 
 // FILE:NAME at the first colon behind which stands a file; empty if no part before a colon does.
@@ -143,22 +145,22 @@ const TranslucentMaterial& materialOf(const Scene& scene, const std::string& nam
         if (translucent != nullptr) names.push_back(material.name);
         if (material.name != name) continue;
         if (translucent == nullptr)
-            usage(fmt::format("material {} of {} is not translucent: it has no profile",
-                              inQuotes(name), scene.file.string()));
+            badArgument(fmt::format("material {} of {} is not translucent: it has no profile",
+                                    inQuotes(name), scene.file.string()));
         return *translucent;
     }
-    usage(fmt::format("{} has no material {}", scene.file.string(), inQuotes(name)),
-          nameHint(name, names));
+    badArgument(fmt::format("{} has no material {}", scene.file.string(), inQuotes(name)),
+                nameHint(name, names));
 }
 
 [[noreturn]] void refuseName(const std::string& name) {
     std::vector<std::string_view> names;
     for (const MeasuredMedium& medium : measuredMedia()) names.push_back(medium.name);
     const std::string near = nearestName(name, names);
-    usage(fmt::format("there is no measured medium {}", inQuotes(name)),
-          (near.empty() ? std::string() : fmt::format("did you mean \"{}\"? ", near)) +
-              "see sss-render --list-materials; a scene's material is FILE:NAME, numbers are "
-              "sigma_a=...,sigma_s_prime=...");
+    badArgument(fmt::format("there is no measured medium {}", inQuotes(name)),
+                (near.empty() ? std::string() : fmt::format("did you mean \"{}\"? ", near)) +
+                    "see sss-render --list-materials; a scene's material is FILE:NAME, numbers are "
+                    "sigma_a=...,sigma_s_prime=...");
 }
 
 }  // namespace

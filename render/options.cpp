@@ -1,10 +1,8 @@
 #include "options.h"
 
 #include "sss/base/error.h"
-#include "sss/base/frame_list.h"
 #include "sss/base/near_name.h"
 #include "sss/integrate/integrator_table.h"
-#include "sss/scene/material_override.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/core.h>
@@ -106,8 +104,10 @@ Exit codes: 0 done, 1 internal error, 2 usage, 3 bad input, 4 could not read or 
 
 constexpr int kMostPixelsPerSide = 65536;
 
+constexpr sss::ProgramText kProgram{"sss-render", kHelp};
+
 [[noreturn]] void usage(const std::string& where, const std::string& what) {
-    throw sss::Error(sss::ErrorKind::Usage, where, what, "see sss-render --help");
+    sss::usageError(kProgram, where, what);
 }
 
 void readSize(const std::string& text, RenderOptions& o) {
@@ -150,11 +150,7 @@ void checkMaterials(const RenderOptions& o, bool radiiGiven) {
     if ((profile || o.listMaterials) && !o.scene.empty())
         usage("SCENE", fmt::format("{} is not needed with {}", o.scene.string(),
                                    profile ? "--profile" : "--list-materials"));
-    const auto thickness = o.profile.thicknessMm;
-    if (thickness && !(*thickness > 0 && std::isfinite(*thickness)))
-        usage("--thickness", fmt::format("{} is not a positive length", *thickness));
-    if (o.metersPerUnit && !(*o.metersPerUnit > 0 && std::isfinite(*o.metersPerUnit)))
-        usage("--meters-per-unit", fmt::format("{} is not a positive length", *o.metersPerUnit));
+    sss::requireLength(kProgram, "--thickness", o.profile.thicknessMm);
 }
 
 void checkCompare(const RenderOptions& o) {
@@ -183,16 +179,9 @@ void checkIntegrator(const std::string& name) {
                      sss::nameHint(name, names));
 }
 
-void checkFrames(const RenderOptions& o) {
-    if (o.frames.size() > 1 && !sss::hasFrameField(o.output.string()))
-        usage("--output", fmt::format("{} would hold the last of {} frames only: give the number a "
-                                      "place (####)",
-                                      o.output.string(), o.frames.size()));
-    if (o.cacheOnly && o.cache.empty()) usage("--cache-only", "goes with --cache");
-}
-
 void check(const RenderOptions& o) {
-    checkFrames(o);
+    sss::requireNameForEach(kProgram, o.output, o.frames);
+    if (o.cacheOnly && o.cache.empty()) usage("--cache-only", "goes with --cache");
     if (o.integrator) checkIntegrator(*o.integrator);
     if (o.scene.empty()) usage("SCENE", "no scene file given");
     if (o.output.empty()) usage("--output", "no picture given (-o OUT.exr)");
@@ -200,10 +189,6 @@ void check(const RenderOptions& o) {
         usage("--output", fmt::format("{} does not end in .exr", o.output.string()));
     if (o.samples && (*o.samples < 1 || *o.samples > 1 << 20))
         usage("--samples", fmt::format("{} is not in 1 to 1048576", *o.samples));
-    if (o.tolerance && !(*o.tolerance > 0 && *o.tolerance <= 0.5))
-        usage("--tolerance", fmt::format("{} is not in (0, 0.5]", *o.tolerance));
-    if (o.maxPoints == 0) usage("--max-points", "must be at least 1");
-    if (o.threads > 1024) usage("--threads", fmt::format("{} is more than 1024", o.threads));
 }
 
 }  // namespace
@@ -211,30 +196,15 @@ void check(const RenderOptions& o) {
 std::optional<RenderOptions> readOptions(int argc, const char* const* argv) {
     RenderOptions o;
     CLI::App app;
-    app.set_help_flag();
-    bool help = false, version = false;
-    std::string size, radii, boundary, frames, progress;
-    app.add_flag("-h,--help", help);
-    app.add_flag("--version", version);
-    app.add_option("scene", o.scene);
+    std::string size, radii;
     app.add_option("--cache", o.cache);
     app.add_flag("--no-keep", o.noKeep);
     app.add_flag("--cache-only", o.cacheOnly);
-    auto* framesOption = app.add_option("--frames", frames);
     app.add_flag("--resume", o.resume);
     app.add_option("--camera-seed", o.cameraSeed)->check(CLI::NonNegativeNumber);
-    app.add_flag("--explain", o.explain);
-    app.add_option("--progress", progress);
     app.add_option("-o,--output", o.output);
-    app.add_option("--stats", o.stats);
     app.add_option("--samples", o.samples);
     app.add_option("--size", size);
-    app.add_option("--tolerance", o.tolerance);
-    app.add_option("--meters-per-unit", o.metersPerUnit);
-    app.add_option("--seed", o.seed)->check(CLI::NonNegativeNumber);
-    app.add_option("--max-points", o.maxPoints)->check(CLI::NonNegativeNumber);
-    app.add_option("--threads", o.threads)->check(CLI::NonNegativeNumber);
-    app.add_option("--boundary", boundary);
     app.add_flag("--list-materials", o.listMaterials);
     app.add_flag("--json", o.compare.json);
     app.add_option("--compare", o.compare.files)->expected(1, 1000);
@@ -243,29 +213,14 @@ std::optional<RenderOptions> readOptions(int argc, const char* const* argv) {
     app.add_option("--error-image", o.compare.errorImage);
     app.add_option("--integrator", o.integrator);
     app.add_option("--profile", o.profile.material);
-    app.add_option("--model", o.profile.model);
     const auto* radiiOption = app.add_option("--radii", radii);
     app.add_option("--thickness", o.profile.thicknessMm);
     app.add_flag("--csv", o.profile.csv);
     app.add_flag("--no-png", o.noPng);
-    app.add_flag("--quiet", o.quiet);
-    app.add_flag("--strict", o.strict);
-    try {
-        app.parse(argc, argv);
-    } catch (const CLI::ParseError& e) {
-        usage("command line", e.what());
-    }
-    if (help || version) {
-        if (help)
-            fmt::print(fmt::runtime(kHelp), SSS_VERSION);
-        else
-            fmt::print("sss-render {}\n", SSS_VERSION);
-        return std::nullopt;
-    }
+    if (!sss::readCommandLine(app, o, kProgram, argc, argv)) return std::nullopt;
+    o.profile.model = o.model;
+    o.profile.boundary = o.boundary;
     readSize(size, o);
-    if (framesOption->count() > 0) o.frames = sss::parseFrames(frames, "--frames");
-    if (!progress.empty()) o.progress = sss::progressStyle(progress, "--progress");
-    if (!boundary.empty()) o.profile.boundary = sss::boundaryModel(boundary, "--boundary");
     if (!radii.empty()) o.profile.radiiMm = readRadii(radii);
     checkMaterials(o, radiiOption->count() > 0);
     checkCompare(o);

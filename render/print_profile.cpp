@@ -1,5 +1,6 @@
 #include "print_profile.h"
 
+#include "channel_names.h"
 #include "sss/base/error.h"
 #include "sss/base/near_name.h"
 #include "sss/medium/half_space.h"
@@ -20,7 +21,6 @@ namespace {
 using namespace sss;
 
 using Profiles = std::array<std::shared_ptr<const Profile>, 3>;
-constexpr std::array kChannels{"R", "G", "B"};
 constexpr int kStepsPerDecade = 20;
 // 17 significant digits read back as the same double; the width fits a negative exponent of three.
 constexpr int kColumn = 25;
@@ -57,7 +57,7 @@ Profiles makeProfiles(const ProfileSubject& subject) {
         if (!(channel.sigmaT() > 0))
             throw Error(ErrorKind::BadInput, subject.source,
                         fmt::format("channel {} neither absorbs nor scatters",
-                                    kChannels[static_cast<std::size_t>(c)]),
+                                    kChannelNames[static_cast<std::size_t>(c)]),
                         "a profile needs some scattering or absorption");
         auto& profile = profiles[static_cast<std::size_t>(c)];
         // A simulated profile costs seconds: equal channels share it.
@@ -161,7 +161,7 @@ void printProfile(const ProfileRequest& request, std::optional<double> metersPer
     printHead(subject, profiles);
     std::vector<std::string> header{"r_mm"};
     for (const char* quantity : {"R_d", "cumulative"})
-        for (const char* channel : kChannels)
+        for (const char* channel : kChannelNames)
             header.push_back(fmt::format("{}_{}", quantity, channel));
     printRow(header, request.csv);
     for (const double r : radiiOf(request, subject.medium)) {

@@ -11,6 +11,10 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   target_compile_options(sss_options INTERFACE
     -Wno-restrict -Wno-stringop-overflow -Wno-array-bounds -Wno-stringop-overread)
 endif()
+if(CMAKE_UNITY_BUILD)
+  # Files that are compiled together are all headers to this warning.
+  target_compile_options(sss_options INTERFACE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
+endif()
 # SSS_ASSERT is on in every build but Release.
 target_compile_definitions(sss_options INTERFACE $<$<NOT:$<CONFIG:Release>>:SSS_ASSERTIONS=1>)
 
@@ -39,10 +43,21 @@ endif()
 # sss_precompile(TARGET header...): the headers that most files of a target spend their time on. Tests
 # always; the library only where SSS_PRECOMPILE says so, so that a missing include is seen.
 function(sss_precompile target)
-  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
-    target_compile_options(${target} PRIVATE $<$<BOOL:${SSS_CCACHE}>:-fpch-preprocess>)
-  endif()
+  sss_cache_precompiled(${target})
   target_precompile_headers(${target} PRIVATE
     <algorithm> <filesystem> <functional> <memory> <optional> <span> <string> <vector>
     <glm/glm.hpp> <fmt/format.h> ${ARGN})
+endfunction()
+
+# sss_precompile_as(OTHER TARGET): with the headers of another target, whose options are the same.
+function(sss_precompile_as other target)
+  sss_cache_precompiled(${target})
+  target_precompile_headers(${target} REUSE_FROM ${other})
+endfunction()
+
+# ccache wants to know of precompiled headers.
+function(sss_cache_precompiled target)
+  if(SSS_CCACHE AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+    target_compile_options(${target} PRIVATE -fpch-preprocess)
+  endif()
 endfunction()

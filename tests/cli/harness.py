@@ -19,6 +19,8 @@ SOURCE = pathlib.Path(__file__).resolve().parents[2]
 SHARED = SOURCE.parent / "shared"
 BIN = pathlib.Path(os.environ.get("SSS_BIN_DIR", SOURCE / "build/release/bin"))
 TIMEOUT_SECONDS = 300
+# Whether the programs run under a sanitizer, several times slower.
+SANITIZED = os.environ.get("SSS_SANITIZED") == "1"
 
 # Exit codes, as documented.
 OK, INTERNAL, USAGE, BAD_INPUT, IO, RESOURCES, STRICT = range(7)

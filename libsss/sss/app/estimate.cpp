@@ -1,10 +1,10 @@
 #include "sss/app/estimate.h"
 
 #include "sss/app/placed_on.h"
+#include "sss/base/stopwatch.h"
 #include "sss/integrate/scene_fingerprint.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
 namespace sss {
@@ -13,11 +13,6 @@ namespace {
 constexpr double kTrialPoints = 2000;
 // Placing a point, of one thread; on top of what the trial says.
 constexpr double kSecondsPerPoint = 10e-6;
-
-double nowSeconds() {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch())
-        .count();
-}
 
 }  // namespace
 
@@ -29,9 +24,10 @@ PassOneEstimate::Trial PassOneEstimate::tryOut(const World& light, int bodyIndex
     const Body& body = light.bodies()[b];
     SamplerOptions sampling;
     sampling.spacingMm = std::max(spacingMm, std::sqrt(body.mesh.area() / kTrialPoints));
-    const double start = nowSeconds();
+    const Stopwatch placing;
     const SurfaceSamples trial = sampleSurface(body.mesh, sampling);
-    const double placed = nowSeconds();
+    const double placingSeconds = placing.seconds();
+    const Stopwatch lighting;
     BodyReport report;
     describePoints(body, *optics[b], trial.size(), report);
     IrradianceResult lit = lightPoints(light, bodyIndex, trial, optics, silent, report);
@@ -41,8 +37,8 @@ PassOneEstimate::Trial PassOneEstimate::tryOut(const World& light, int bodyIndex
         shapeCorrection(light, bodyIndex, trial, lit.beams, optics, cloud.view(), silent, report);
     }
     const auto count = static_cast<double>(trial.size());
-    return {placed - start + std::max(0.0, wanted - count) * kSecondsPerPoint,
-            (nowSeconds() - placed) * wanted / count};
+    return {placingSeconds + std::max(0.0, wanted - count) * kSecondsPerPoint,
+            lighting.seconds() * wanted / count};
 }
 
 void PassOneEstimate::add(const World& world, const World* reference) {

@@ -2,18 +2,11 @@
 
 #include <fmt/core.h>
 
-#include <chrono>
-
 namespace sss {
 namespace {
 
 // Exitance is kept at the end, and on the way not more often than this.
 constexpr double kSaveEverySeconds = 20;
-
-double nowSeconds() {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch())
-        .count();
-}
 
 std::uint64_t groupsOf(std::span<const std::unique_ptr<BodyField>> fields) {
     std::uint64_t groups = 0;
@@ -32,7 +25,7 @@ struct ExitanceChain::Keeper {
 };
 
 ExitanceChain::ExitanceChain(const StageFolder* folder, Reporter& reporter, RunStats& stats)
-    : folder_(folder), reporter_(reporter), stats_(stats), savedAt_(nowSeconds()) {}
+    : folder_(folder), reporter_(reporter), stats_(stats) {}
 
 ExitanceChain::~ExitanceChain() = default;
 
@@ -99,7 +92,7 @@ void ExitanceChain::save() {
         keeper.cache.save(fields, reporter_);
         keeper.saved = groups;
     }
-    savedAt_ = nowSeconds();
+    sinceSaved_.restart();
 }
 
 std::vector<StageRow> ExitanceChain::finishFrame(bool now) {
@@ -114,7 +107,7 @@ std::vector<StageRow> ExitanceChain::finishFrame(bool now) {
                             kept_[b].isNew ? "that the cache has not" : "seen for the first time");
         rows.push_back(std::move(row));
     }
-    if (now || nowSeconds() - savedAt_ > kSaveEverySeconds) save();
+    if (now || sinceSaved_.seconds() > kSaveEverySeconds) save();
     return rows;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 #include "sss/app/run_stats.h"
 #include "sss/app/stage_table.h"
+#include "sss/base/stopwatch.h"
 #include "sss/cloud/stage_folder.h"
 #include "sss/integrate/body_field.h"
 #include "sss/integrate/exitance_cache.h"
@@ -61,7 +62,7 @@ private:
     std::vector<std::unique_ptr<BodyField>> fields_;  // by body
     std::vector<Keeper> keepers_;
     ExitanceCounts retired_;  // of fields that are gone
-    double savedAt_;
+    Stopwatch sinceSaved_;
 };
 
 }  // namespace sss

@@ -3,12 +3,12 @@
 #include "sss/app/log_line.h"
 #include "sss/base/atomic_file.h"
 #include "sss/base/error.h"
+#include "sss/base/stopwatch.h"
 
 #include <fmt/core.h>
 #include <unistd.h>
 
 #include <cerrno>
-#include <chrono>
 #include <csignal>
 #include <cstdio>
 #include <cstring>
@@ -60,11 +60,10 @@ void flushOutput() {
 }  // namespace
 
 int runProgram(const char* name, int argc, const char* const* argv, const ProgramBody& body) {
-    const auto start = std::chrono::steady_clock::now();
+    const Stopwatch sinceStart;
     installSignalHandlers();
     const auto fail = [&](ErrorKind kind, std::string_view sentence) {
-        const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
-        const std::string line = logLine("ERROR", elapsed.count(), name, sentence);
+        const std::string line = logLine("ERROR", sinceStart.seconds(), name, sentence);
         std::fwrite(line.data(), 1, line.size(), stderr);
         return static_cast<int>(kind);
     };

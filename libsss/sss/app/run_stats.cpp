@@ -16,10 +16,6 @@ double processCpuSeconds() {
     return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
 
-double secondsSince(std::chrono::steady_clock::time_point began) {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
-}
-
 // Few names, and their order is the order of the report: a vector searched from its front.
 template <typename Item>
 Item& named(std::vector<Item>& items, std::string_view name) {
@@ -41,17 +37,13 @@ Item valueOf(const std::vector<Item>& items, std::string_view name) {
 }  // namespace
 
 RunStats::Timer::Timer(RunStats& stats, std::string phase)
-    : stats_(stats),
-      phase_(std::move(phase)),
-      wallBegan_(std::chrono::steady_clock::now()),
-      cpuBegan_(processCpuSeconds()) {}
+    : stats_(stats), phase_(std::move(phase)), cpuBegan_(processCpuSeconds()) {}
 
 RunStats::Timer::~Timer() {
-    stats_.addSeconds(phase_, secondsSince(wallBegan_), processCpuSeconds() - cpuBegan_);
+    stats_.addSeconds(phase_, wall_.seconds(), processCpuSeconds() - cpuBegan_);
 }
 
-RunStats::RunStats(std::string program)
-    : program_(std::move(program)), began_(std::chrono::steady_clock::now()) {}
+RunStats::RunStats(std::string program) : program_(std::move(program)) {}
 
 void RunStats::count(std::string_view name, std::uint64_t amount) {
     const std::lock_guard lock(mutex_);
@@ -75,7 +67,7 @@ double RunStats::wallSeconds(std::string_view phase) const {
     return valueOf(phases_, phase).wallSeconds;
 }
 
-double RunStats::wallSeconds() const { return secondsSince(began_); }
+double RunStats::wallSeconds() const { return sinceStart_.seconds(); }
 
 double RunStats::cpuSeconds() const { return processCpuSeconds(); }
 
@@ -91,7 +83,7 @@ JsonValue RunStats::toJson() const {
         wall.set(phase.name, phase.wallSeconds);
         cpu.set(phase.name, phase.cpuSeconds);
     }
-    wall.set("total", secondsSince(began_));
+    wall.set("total", sinceStart_.seconds());
     cpu.set("total", processCpuSeconds());
     for (const Counter& counter : counters_) counts.set(counter.name, counter.amount);
     JsonValue all = JsonValue::object();

@@ -1,7 +1,7 @@
 #pragma once
 #include "sss/base/json.h"
+#include "sss/base/stopwatch.h"
 
-#include <chrono>
 #include <cstdint>
 #include <filesystem>
 #include <mutex>
@@ -27,7 +27,7 @@ public:
         Timer(RunStats& stats, std::string phase);
         RunStats& stats_;
         std::string phase_;
-        std::chrono::steady_clock::time_point wallBegan_;
+        Stopwatch wall_;
         double cpuBegan_;
     };
 
@@ -68,7 +68,7 @@ private:
     void addSeconds(const std::string& phase, double wall, double cpu);
 
     std::string program_;
-    std::chrono::steady_clock::time_point began_;
+    Stopwatch sinceStart_;
     std::vector<Phase> phases_;
     std::vector<Counter> counters_;
     JsonValue values_ = JsonValue::object();

@@ -3,6 +3,7 @@
 #include "sss/app/log_line.h"
 #include "sss/base/error.h"
 #include "sss/base/json.h"
+#include "sss/base/stopwatch.h"
 
 #include <fmt/core.h>
 #include <unistd.h>
@@ -15,12 +16,6 @@ namespace {
 
 constexpr double kShortPhaseSeconds = 1.0;
 constexpr double kPrintEverySeconds = 2.0;
-
-std::function<double()> stopwatch() {
-    return [start = std::chrono::steady_clock::now()] {
-        return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    };
-}
 
 int percent(double fraction) {
     return static_cast<int>(std::floor(100.0 * std::clamp(fraction, 0.0, 1.0)));
@@ -46,7 +41,8 @@ std::string timeLeftText(double seconds) {
 TerminalReporter::TerminalReporter(TerminalOptions options) : options_(std::move(options)) {
     isTerminal_ = options_.progress == ProgressStyle::Automatic &&
                   options_.isTerminal.value_or(isatty(fileno(options_.stream)) == 1);
-    if (!options_.elapsedSeconds) options_.elapsedSeconds = stopwatch();
+    if (!options_.elapsedSeconds)
+        options_.elapsedSeconds = [sinceStart = Stopwatch()] { return sinceStart.seconds(); };
 }
 
 TerminalReporter::~TerminalReporter() {

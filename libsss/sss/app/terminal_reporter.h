@@ -1,7 +1,6 @@
 #pragma once
 #include "sss/base/reporter.h"
 
-#include <chrono>
 #include <cstddef>
 #include <cstdio>
 #include <functional>

@@ -10,7 +10,7 @@
 namespace sss {
 namespace {
 
-constexpr std::uint32_t kNone = 0xffffffffu;
+constexpr std::uint32_t kNoCell = 0xffffffffu;
 constexpr double kMostCellsPerAxis = 2e6;  // 21 bits each in a key
 constexpr std::size_t kGrain = 2048;
 
@@ -31,7 +31,7 @@ CellGrid::CellGrid(std::span<const Vec3> positions, double cellSize) {
     origin_ = box.lo;
     const double smallest = std::max<double>(maxComponent(box.size()) / kMostCellsPerAxis, 1e-30);
     inverseSize_ = 1.0 / std::max(cellSize, smallest);
-    slots_.assign(std::bit_ceil(positions.size() + 16), kNone);
+    slots_.assign(std::bit_ceil(positions.size() + 16), kNoCell);
     cellOf_.resize(positions.size());
     for (std::size_t i = 0; i < positions.size(); ++i) cellOf_[i] = insert(keyOf(positions[i]));
     listNeighbours();
@@ -53,13 +53,13 @@ std::uint64_t CellGrid::keyOf(const Vec3& p) const {
 std::size_t CellGrid::slotOf(std::uint64_t key) const {
     const std::size_t mask = slots_.size() - 1;
     std::size_t slot = mix64(key) & mask;
-    while (slots_[slot] != kNone && keys_[slots_[slot]] != key) slot = (slot + 1) & mask;
+    while (slots_[slot] != kNoCell && keys_[slots_[slot]] != key) slot = (slot + 1) & mask;
     return slot;
 }
 
 std::uint32_t CellGrid::insert(std::uint64_t key) {
     const std::size_t slot = slotOf(key);
-    if (slots_[slot] == kNone) {
+    if (slots_[slot] == kNoCell) {
         slots_[slot] = static_cast<std::uint32_t>(keys_.size());
         keys_.push_back(key);
     }
@@ -72,7 +72,7 @@ int CellGrid::find27(std::uint32_t cell, std::array<std::uint32_t, 27>& out) con
     for (std::uint64_t i = 0; i < 27; ++i) {
         const std::uint64_t key = pack(x + i % 3 - 1, y + i / 3 % 3 - 1, z + i / 9 - 1);
         const std::uint32_t found = slots_[slotOf(key)];
-        if (found != kNone) out[static_cast<std::size_t>(count++)] = found;
+        if (found != kNoCell) out[static_cast<std::size_t>(count++)] = found;
     }
     return count;
 }

@@ -34,7 +34,7 @@ private:
 
     Vec3 origin_;
     double inverseSize_ = 1;
-    std::vector<std::uint32_t> slots_;  // open addressing: cell, or kNone
+    std::vector<std::uint32_t> slots_;  // open addressing: cell, or kNoCell
     std::vector<std::uint64_t> keys_;   // of each cell
     std::vector<std::uint32_t> cellOf_;
     std::vector<std::uint32_t> firstNeighbour_, neighbours_;

@@ -10,7 +10,7 @@
 namespace sss {
 namespace {
 
-constexpr std::uint32_t kNone = 0xffffffffu;
+constexpr std::uint32_t kNoBlocker = 0xffffffffu;
 
 class DartBoard {
 public:
@@ -70,7 +70,7 @@ private:
         const std::uint32_t slot = first_[cell] + trial;
         const std::uint32_t candidate = candidates_[slot];
         blocker[candidate] = findBlocker(candidate, cell);
-        if (blocker[candidate] != kNone) return;
+        if (blocker[candidate] != kNoBlocker) return;
         blocker[candidate] = candidate;
         // The chosen ones of a cell stand at its front; what moves back was tried before.
         std::swap(candidates_[slot], candidates_[first_[cell] + chosen_[cell]++]);
@@ -87,7 +87,7 @@ private:
                     return rival;
             }
         }
-        return kNone;
+        return kNoBlocker;
     }
 
     std::span<const Vec3> positions_, normals_;
@@ -103,7 +103,7 @@ private:
 DartThrow throwDarts(std::span<const Vec3> positions, std::span<const Vec3> normals,
                      double radiusMm, std::uint64_t seed) {
     DartThrow result;
-    result.blocker.assign(positions.size(), kNone);
+    result.blocker.assign(positions.size(), kNoBlocker);
     if (positions.empty()) return result;
     DartBoard(positions, normals, radiusMm).throwAll(seed, result.blocker);
     for (std::uint32_t i = 0; i < positions.size(); ++i)

@@ -10,26 +10,26 @@ namespace sss {
 namespace {
 
 // Of equal steps in lightness, after matplotlib's inferno at 0, 1/6, ... 1.
-constexpr std::array<std::array<double, 3>, 7> kColours{{{0, 0, 4},
-                                                         {50, 10, 94},
-                                                         {120, 28, 109},
-                                                         {188, 55, 84},
-                                                         {237, 105, 37},
-                                                         {251, 180, 26},
-                                                         {252, 255, 164}}};
+constexpr std::array<std::array<double, 3>, 7> kColourMap{{{0, 0, 4},
+                                                           {50, 10, 94},
+                                                           {120, 28, 109},
+                                                           {188, 55, 84},
+                                                           {237, 105, 37},
+                                                           {251, 180, 26},
+                                                           {252, 255, 164}}};
 constexpr double kDecades = 3;  // below 1
 constexpr std::array<std::uint8_t, 3> kMasked{96, 96, 96}, kBroken{0, 255, 0};
 
 std::array<std::uint8_t, 3> colourOf(double relativeError) {
     if (std::isnan(relativeError)) return kBroken;
     const double place = relativeError > 0 ? 1 + std::log10(relativeError) / kDecades : 0.0;
-    const double at = std::clamp(place, 0.0, 1.0) * (kColours.size() - 1);
-    const auto below = std::min(static_cast<std::size_t>(at), kColours.size() - 2);
+    const double at = std::clamp(place, 0.0, 1.0) * (kColourMap.size() - 1);
+    const auto below = std::min(static_cast<std::size_t>(at), kColourMap.size() - 2);
     const double share = at - static_cast<double>(below);
     std::array<std::uint8_t, 3> colour;
     for (std::size_t c = 0; c < 3; ++c)
         colour[c] = static_cast<std::uint8_t>(
-            std::lround(kColours[below][c] * (1 - share) + kColours[below + 1][c] * share));
+            std::lround(kColourMap[below][c] * (1 - share) + kColourMap[below + 1][c] * share));
     return colour;
 }
 

@@ -8,14 +8,14 @@ namespace sss {
 namespace {
 
 // Gauss-Legendre with three points on [0, 1].
-struct Node {
+struct GaussPoint {
     float s, weight;
 };
-constexpr std::array<Node, 3> kGauss3{
+constexpr std::array<GaussPoint, 3> kGauss3{
     {{0.11270166537925831f, 5.0f / 18}, {0.5f, 8.0f / 18}, {0.88729833462074169f, 5.0f / 18}}};
 // Emission is integrated in steps of at most this depth, where three points are right to 1e-6.
 constexpr float kDepthPerStep = 0.5f;
-constexpr int kMostSteps = 64;
+constexpr int kMostDepthSteps = 64;
 
 // (1 - e^-x) / x.
 float meanTransmittance(float x) { return x > 1e-6f ? -std::expm1(-x) / x : 1.0f - 0.5f * x; }
@@ -124,15 +124,15 @@ Rgb VolumeSegment::emissionIn(const Slice& slice, const Part& emitter) const {
         return before * glow * share * Rgb(density.c[0].y, density.c[0].z, density.c[0].w) * length;
     }
     const int steps = std::clamp(static_cast<int>(std::ceil(maxComponent(within) / kDepthPerStep)),
-                                 1, kMostSteps);
+                                 1, kMostDepthSteps);
     const float step = length / static_cast<float>(steps);
     Rgb sum(0);
     for (int k = 0; k < steps; ++k) {
-        for (const Node& node : kGauss3) {
-            const float t = slice.begin + (static_cast<float>(k) + node.s) * step;
+        for (const GaussPoint& point : kGauss3) {
+            const float t = slice.begin + (static_cast<float>(k) + point.s) * step;
             const Vec4 value = density.at(pieces_[emitter.piece].shareAt(t));
             sum += Rgb(value.y, value.z, value.w) * transmitted(depthWithin(slice, t)) *
-                   (node.weight * step);
+                   (point.weight * step);
         }
     }
     return before * glow * glm::max(sum, Rgb(0));

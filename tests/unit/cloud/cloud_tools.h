@@ -45,6 +45,11 @@ struct Optics {
 using Light = std::function<Rgb(const Vec3&)>;  ///< transmitted irradiance at a place
 
 inline Rgb white(const Vec3& /*place*/) { return Rgb(1.0f); }
+/// Across a terminator, with a little colour to it.
+inline Rgb fromOneSide(const Vec3& p) {
+    return Rgb(1.0f, 0.8f, 0.5f) * std::max(0.0f, glm::normalize(p).x);
+}
+inline Rgb halfPlane(const Vec3& p) { return Rgb(p.x > 0 ? 1.0f : 0.0f); }
 
 /// Points on a mesh, each with the mean irradiance of its cell as in pass 1, and their octree.
 struct LitCloud {

@@ -13,16 +13,13 @@ namespace sss {
 namespace {
 
 using testing::Deviations;
+using testing::fromOneSide;
+using testing::halfPlane;
 using testing::LitCloud;
 using testing::Optics;
 using testing::placesOn;
 using testing::sumAt;
 
-// Light across a terminator, with a little colour to it.
-Rgb fromOneSide(const Vec3& p) {
-    return Rgb(1.0f, 0.8f, 0.5f) * std::max(0.0f, glm::normalize(p).x);
-}
-Rgb halfPlane(const Vec3& p) { return Rgb(p.x > 0 ? 1.0f : 0.0f); }
 // Red light on one half, blue on the other, green on both.
 Rgb redAndBlue(const Vec3& p) { return p.x > 0 ? Rgb(1, 0.5f, 0) : Rgb(0, 0.5f, 1); }
 

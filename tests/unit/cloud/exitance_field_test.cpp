@@ -13,13 +13,10 @@ namespace sss {
 namespace {
 
 using testing::Deviations;
+using testing::fromOneSide;
+using testing::halfPlane;
 using testing::LitCloud;
 using testing::Optics;
-
-Rgb fromOneSide(const Vec3& p) {
-    return Rgb(1.0f, 0.8f, 0.5f) * std::max(0.0f, glm::normalize(p).x);
-}
-Rgb halfPlane(const Vec3& p) { return Rgb(p.x > 0 ? 1.0f : 0.0f); }
 
 struct Place {
     FaceIndex face;

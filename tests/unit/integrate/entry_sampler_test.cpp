@@ -17,7 +17,7 @@ using testing::SceneMaker;
 
 constexpr const char* kProfiles[] = {"dipole", "better_dipole", "normalized_diffusion"};
 
-TranslucentMaterial coloured(const char* profile) {
+TranslucentMaterial unevenlyColoured(const char* profile) {
     TranslucentMaterial material = grey(0, 0, 1.4);
     material.medium.sigmaA = {0.01, 0.3, 2};
     material.medium.sigmaS = {1, 3, 5};
@@ -27,9 +27,9 @@ TranslucentMaterial coloured(const char* profile) {
 }
 
 /// Samples around the top of body 0.
-class Experiment {
+class EntryExperiment {
 public:
-    explicit Experiment(const SceneMaker& maker)
+    explicit EntryExperiment(const SceneMaker& maker)
         : world_(maker.world()), optics_(makeBodyOptics(world_)), sampler_(world_, 0, *optics_[0]) {
         Ray down;
         down.origin = {0.02f, 1000, -0.03f};
@@ -56,8 +56,8 @@ private:
     SurfaceHit exit_;
 };
 
-void expectWithin(const Estimate& e, const DRgb& expected, double largestRelativeError,
-                  double relativeSlack) {
+void expectEstimate(const Estimate& e, const DRgb& expected, double largestRelativeError,
+                    double relativeSlack) {
     for (int c = 0; c < 3; ++c) {
         EXPECT_NEAR(e.mean[c], expected[c], 3.5 * e.error[c] + relativeSlack * expected[c])
             << "channel " << c;
@@ -72,13 +72,13 @@ TEST(EntrySampler, Sphere) {
              profile == kProfiles[0] ? std::vector{0.3, 3.0} : std::vector{3.0}) {
             SCOPED_TRACE(::testing::Message() << profile << ' ' << radius);
             SceneMaker maker;
-            maker.object(SphereShape{radius}, maker.material(coloured(profile)));
-            const Experiment experiment(maker);
+            maker.object(SphereShape{radius}, maker.material(unevenlyColoured(profile)));
+            const EntryExperiment experiment(maker);
             DRgb expected;
             for (int c = 0; c < 3; ++c)
                 expected[c] =
                     experiment.profile(c).total() - experiment.profile(c).tail(2 * radius);
-            expectWithin(experiment.evenly(256), expected, 0.02, 3e-4);
+            expectEstimate(experiment.evenly(256), expected, 0.02, 3e-4);
         }
 }
 
@@ -88,12 +88,12 @@ TEST(EntrySampler, ThinSlab) {
         SCOPED_TRACE(profile);
         const double thickness = 0.4;
         SceneMaker maker;
-        maker.object(BoxShape{{400, thickness, 400}}, maker.material(coloured(profile)));
-        const Experiment experiment(maker);
+        maker.object(BoxShape{{400, thickness, 400}}, maker.material(unevenlyColoured(profile)));
+        const EntryExperiment experiment(maker);
         DRgb expected;
         for (int c = 0; c < 3; ++c)
             expected[c] = experiment.profile(c).total() + experiment.profile(c).tail(thickness);
-        expectWithin(experiment.evenly(512), expected, 0.02, 1e-4);
+        expectEstimate(experiment.evenly(512), expected, 0.02, 1e-4);
     }
 }
 
@@ -106,7 +106,7 @@ TEST(EntrySampler, EverySampleOfAPlaneSaysTheTotal) {
         SceneMaker maker;
         maker.object(RectangleShape{100, 100}, maker.material(material),
                      testing::turned(-90, {1, 0, 0}));
-        const Experiment experiment(maker);
+        const EntryExperiment experiment(maker);
         const double total = experiment.profile(0).total();
         int outside = 0;
         for (std::uint32_t i = 0; i < 1024; ++i) {
@@ -126,8 +126,8 @@ TEST(EntrySampler, EverySampleOfAPlaneSaysTheTotal) {
 TEST(EntrySampler, BoxByQuadrature) {
     const double size = 1.5;
     SceneMaker maker;
-    maker.object(BoxShape{DVec3(size)}, maker.material(coloured("better_dipole")));
-    const Experiment experiment(maker);
+    maker.object(BoxShape{DVec3(size)}, maker.material(unevenlyColoured("better_dipole")));
+    const EntryExperiment experiment(maker);
     const DVec3 exit(experiment.exit().position);
     const auto received = [](const DVec3& p) { return 1 + p.x + 2 * p.y * p.z; };
     constexpr int kSteps = 120;
@@ -149,7 +149,7 @@ TEST(EntrySampler, BoxByQuadrature) {
         const EntryPlace place = experiment.sample(sampler);
         return DRgb(place.weight) * received(DVec3(place.hit.position));
     });
-    expectWithin(e, expected, 0.015, 2e-3);
+    expectEstimate(e, expected, 0.015, 2e-3);
 }
 
 }  // namespace

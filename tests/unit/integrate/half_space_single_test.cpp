@@ -3,6 +3,7 @@
 #include "sss/medium/single_scatter.h"
 #include "sss/optics/fresnel.h"
 #include "sss/optics/fresnel_moments.h"
+#include "support/directions.h"
 #include "unit/integrate/scene_maker.h"
 
 #include <gtest/gtest.h>
@@ -10,10 +11,7 @@
 namespace sss {
 namespace {
 
-Vec3 direction(double cosine, double azimuth) {
-    const double sine = std::sqrt(1 - cosine * cosine);
-    return Vec3(DVec3{sine * std::cos(azimuth), sine * std::sin(azimuth), cosine});
-}
+using testing::direction;
 
 // Lit from everywhere and by the normal, by quadrature: what leaves in all.
 TEST(HalfSpaceSingle, SumsToTheSingleScatterAlbedo) {

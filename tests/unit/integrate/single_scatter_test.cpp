@@ -18,7 +18,7 @@ using testing::SceneMaker;
 
 constexpr double kHalfSize = 25;  // mm; hundreds of mean free paths of extinction
 
-Vec3 direction(double thetaDegrees, double phiDegrees) {
+Vec3 directionInDegrees(double thetaDegrees, double phiDegrees) {
     const double t = glm::radians(thetaDegrees), p = glm::radians(phiDegrees);
     return Vec3(DVec3(std::sin(t) * std::cos(p), std::cos(t), std::sin(t) * std::sin(p)));
 }
@@ -40,9 +40,9 @@ double rigorous(const ChannelMedium& m, double muI, double muO, double cosAzimut
 
 // Single scattering at the middle of the top of body 0, by batches that are stratified in
 // themselves and independent of each other.
-class Experiment {
+class ScatterExperiment {
 public:
-    explicit Experiment(const SceneMaker& maker)
+    explicit ScatterExperiment(const SceneMaker& maker)
         : world_(maker.world()), optics_(makeBodyOptics(world_)), tracer_(world_, optics_, {}) {}
 
     Estimate run(const Vec3& wo, std::uint32_t perBatch = 2048) const {
@@ -76,7 +76,7 @@ private:
     PathTracer tracer_;
 };
 
-void expectWithin(const Estimate& e, const DRgb& expected, double mostRelativeError) {
+void expectScattered(const Estimate& e, const DRgb& expected, double mostRelativeError) {
     for (int c = 0; c < 3; ++c) {
         EXPECT_NEAR(e.mean[c], expected[c], 3 * e.error[c] + 1e-5 * expected[c]) << "channel " << c;
         EXPECT_LT(e.error[c], mostRelativeError * expected[c]) << "channel " << c;
@@ -93,7 +93,7 @@ constexpr Angles kRows[] = {{0, 0, 0, 0.016272002352135},     {0, 45, 0, 0.01710
 
 SceneMaker sunlit(const char* medium, const Angles& row) {
     SceneMaker maker = halfSpace(measured(medium));
-    maker.light(DirectionalLight{-DVec3(direction(row.in, 0)), Rgb(1)});
+    maker.light(DirectionalLight{-DVec3(directionInDegrees(row.in, 0)), Rgb(1)});
     return maker;
 }
 
@@ -111,17 +111,17 @@ TEST(SingleScattering, HalfSpaceOfMarble) {
         SCOPED_TRACE(row.in);
         const DRgb expected = rigorousRow(measured("Marble").medium, row);
         EXPECT_NEAR(expected.y, row.marbleGreen, 1e-9 * row.marbleGreen);
-        const Experiment experiment(sunlit("Marble", row));
-        expectWithin(experiment.run(direction(row.out, row.azimuths)), expected, 0.005);
+        const ScatterExperiment experiment(sunlit("Marble", row));
+        expectScattered(experiment.run(directionInDegrees(row.out, row.azimuths)), expected, 0.005);
     }
 }
 
 TEST(SingleScattering, HalfSpaceOfForwardScatteringMilk) {
     for (const Angles& row : kRows) {
         SCOPED_TRACE(row.in);
-        const Experiment experiment(sunlit("Regular Milk", row));
-        expectWithin(experiment.run(direction(row.out, row.azimuths)),
-                     rigorousRow(measured("Regular Milk").medium, row), 0.005);
+        const ScatterExperiment experiment(sunlit("Regular Milk", row));
+        expectScattered(experiment.run(directionInDegrees(row.out, row.azimuths)),
+                        rigorousRow(measured("Regular Milk").medium, row), 0.005);
     }
 }
 
@@ -129,9 +129,9 @@ TEST(SingleScattering, UnmatchedIndexBelowOne) {
     TranslucentMaterial bubble = testing::grey(0.5, 10, 0.75);
     const Angles row{20, 25, 60, 0};
     SceneMaker maker = halfSpace(bubble);
-    maker.light(DirectionalLight{-DVec3(direction(row.in, 0)), Rgb(1)});
-    expectWithin(Experiment(maker).run(direction(row.out, row.azimuths)),
-                 rigorousRow(bubble.medium, row), 0.005);
+    maker.light(DirectionalLight{-DVec3(directionInDegrees(row.in, 0)), Rgb(1)});
+    expectScattered(ScatterExperiment(maker).run(directionInDegrees(row.out, row.azimuths)),
+                    rigorousRow(bubble.medium, row), 0.005);
 }
 
 // Only the phase function is sampled here: the constant sky is never picked.
@@ -151,7 +151,8 @@ TEST(SingleScattering, UnderAConstantSky) {
                               });
                           });
         }
-        expectWithin(Experiment(maker).run(direction(40, 10), 8192), expected, 0.01);
+        expectScattered(ScatterExperiment(maker).run(directionInDegrees(40, 10), 8192), expected,
+                        0.01);
     }
 }
 
@@ -170,12 +171,12 @@ TEST(SingleScattering, SamplingALightDoesNotChangeTheMean) {
         SceneMaker lit = halfSpace(measured(name));
         lit.light(lamp);
         const World world = lit.world();
-        const Experiment dark(halfSpace(measured(name)));
-        const Vec3 wo = direction(30, 200);
+        const ScatterExperiment dark(halfSpace(measured(name)));
+        const Vec3 wo = directionInDegrees(30, 200);
         const Estimate brute = dark.run(wo, 8192, [&](const Ray& ray, const Vec3& from, float) {
             return world.lights()[0]->seen(from, ray.direction).radiance;
         });
-        const Estimate weighted = Experiment(lit).run(wo);
+        const Estimate weighted = ScatterExperiment(lit).run(wo);
         for (int c = 0; c < 3; ++c) {
             EXPECT_GT(weighted.mean[c], 0);
             EXPECT_NEAR(weighted.mean[c], brute.mean[c],
@@ -193,7 +194,7 @@ TEST(SingleScattering, ShadowsAndThinSlabs) {
     maker.light(DirectionalLight{{0, -1, 0}, Rgb(1)});
     maker.object(RectangleShape{20, 20}, maker.material(LambertianMaterial{}),
                  testing::moved({0, kHalfSize + 9, 0}) * testing::turned(90, {1, 0, 0}));
-    EXPECT_EQ(Experiment(maker).run(direction(70, 0), 64).mean, DRgb(0));
+    EXPECT_EQ(ScatterExperiment(maker).run(directionInDegrees(70, 0), 64).mean, DRgb(0));
 
     // Lit from below, a slab of thickness d: L = alpha sigma_s p ... with both paths in the slab.
     SceneMaker slab;
@@ -203,7 +204,7 @@ TEST(SingleScattering, ShadowsAndThinSlabs) {
     slab.light(DirectionalLight{{0, 1, 0}, Rgb(1)});
     const double t = 1 - fresnelReflectance(1.0, 1.3);
     const double expected = t * t / (1.3 * 1.3) * 2.0 * std::exp(-2.1) / (4 * kPi);
-    expectWithin(Experiment(slab).run(Vec3(0, 1, 0)), DRgb(expected), 0.01);
+    expectScattered(ScatterExperiment(slab).run(Vec3(0, 1, 0)), DRgb(expected), 0.01);
 }
 
 }  // namespace

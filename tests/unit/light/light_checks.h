@@ -8,6 +8,14 @@
 
 namespace sss::testing {
 
+/// Configuration factor of a patch to a parallel rectangle a x b at distance c, the patch's normal
+/// passing through a corner (Howell's catalogue, B-4).
+inline double cornerFactor(double a, double b, double c) {
+    const double x = a / c, y = b / c;
+    const double p = std::sqrt(1 + x * x), q = std::sqrt(1 + y * y);
+    return (x / p * std::atan(y / p) + y / q * std::atan(x / q)) / (2 * kPi);
+}
+
 /// Irradiance (red) at `from` on a patch of unit normal `normal`, from 2^14 samples.
 inline double irradiance(const Light& light, const Vec3& from, const Vec3& normal) {
     const std::uint32_t n = 1 << 14;

@@ -8,6 +8,7 @@
 namespace sss {
 namespace {
 
+using testing::cornerFactor;
 using testing::expectDistributed;
 using testing::irradiance;
 
@@ -16,12 +17,6 @@ using testing::irradiance;
 std::vector<MeshLight::Triangle> ceiling() {
     const Vec3 a{-10, -4, 5}, b{10, -4, 5}, c{10, 4, 5}, d{-10, 4, 5}, e{3, 4, 5};
     return {{a, e, b}, {a, a, b}, {b, e, c}, {a, d, e}};
-}
-
-double cornerFactor(double a, double b, double c) {
-    const double x = a / c, y = b / c;
-    const double p = std::sqrt(1 + x * x), q = std::sqrt(1 + y * y);
-    return (x / p * std::atan(y / p) + y / q * std::atan(x / q)) / (2 * kPi);
 }
 
 TEST(MeshLight, IrradianceMatchesTheClosedForm) {

@@ -8,17 +8,10 @@
 namespace sss {
 namespace {
 
+using testing::cornerFactor;
 using testing::expectDistributed;
 using testing::expectSeenAgrees;
 using testing::irradiance;
-
-/// Configuration factor of a patch to a parallel rectangle a x b at distance c, the patch's normal
-/// passing through a corner (Howell's catalogue, B-4).
-double cornerFactor(double a, double b, double c) {
-    const double x = a / c, y = b / c;
-    const double p = std::sqrt(1 + x * x), q = std::sqrt(1 + y * y);
-    return (x / p * std::atan(y / p) + y / q * std::atan(x / q)) / (2 * kPi);
-}
 
 RectangleLight ceiling(double width, double height, double distance) {
     return {{0, 0, distance}, {0, 0, 0}, {0, 1, 0}, width, height, {2, 2, 2}, false};

@@ -15,7 +15,7 @@ using namespace sss;
 
 namespace {
 
-const std::vector<std::string> kModels{
+const std::vector<std::string> kEveryModel{
     "dipole",
     "better_dipole",
     "normalized_diffusion",
@@ -29,7 +29,8 @@ const std::vector<std::string> kModels{
 
 const ChannelMedium kMarble{0.0041, 2.62, 0, 1.5};
 
-std::unique_ptr<Profile> make(const std::string& model, ChannelMedium medium, double thickness) {
+std::unique_ptr<Profile> extremeProfile(const std::string& model, ChannelMedium medium,
+                                        double thickness) {
     ProfileOptions options;
     if (model.starts_with("multipole")) options.slabThicknessMm = thickness;
     if (model == "normalized_diffusion_dmfp" && medium.sigmaA == 0) medium.sigmaA = 1e-320;
@@ -57,12 +58,12 @@ void expectNumbersAtEveryRadius(const Profile& profile, const std::string& where
 }
 
 TEST(Extremes, EveryRadiusGivesNumbers) {
-    for (const std::string& model : kModels) {
+    for (const std::string& model : kEveryModel) {
         for (const ChannelMedium& medium :
              {kMarble, ChannelMedium{0, 1e-6, 0, 1.3}, ChannelMedium{1e-200, 1e6, -0.99, 0.75},
               ChannelMedium{1e-40, 1e-40, 0, 1}, ChannelMedium{1e40, 1e42, 0.999, 3},
               ChannelMedium{5e-324, 1, 0, 1.3}, ChannelMedium{1, 1e-250, 0, 1.3}}) {
-            expectNumbersAtEveryRadius(*make(model, medium, 3 * medium.meanFreePathMm()),
+            expectNumbersAtEveryRadius(*extremeProfile(model, medium, 3 * medium.meanFreePathMm()),
                                        model + " " + std::to_string(std::log10(medium.sigmaA)));
         }
     }
@@ -91,8 +92,8 @@ TEST(Extremes, LawsAtTheSingularityGoOnToTheSmallestRadii) {
 }
 
 TEST(Extremes, CumulativeIsTheQuadratureOfTheProfile) {
-    for (const std::string& model : kModels) {
-        const auto profile = make(model, kMarble, 1.0);
+    for (const std::string& model : kEveryModel) {
+        const auto profile = extremeProfile(model, kMarble, 1.0);
         double sum = 0, lo = 0;
         for (double r = 1e-9; r < 30; r *= 1.7) {
             const auto ring = [&](double x) { return 2 * kPi * x * profile->reflectance(x); };
@@ -116,7 +117,7 @@ TEST(Extremes, CumulativeOfThinSlabsIsSmooth) {
     for (const Slab& slab :
          {Slab{"multipole_transmittance", 1.0001}, Slab{"multipole_transmittance", 1 + 1e-9},
           Slab{"multipole", 1e-3}, Slab{"multipole", 1e-6}, Slab{"multipole", 1.0}}) {
-        const auto profile = make(slab.model, {0.1, 0.9, 0, 1.3}, slab.thickness);
+        const auto profile = extremeProfile(slab.model, {0.1, 0.9, 0, 1.3}, slab.thickness);
         double last = profile->cumulative(1e-12);
         for (double r = 1e-12; r < 100;) {
             // Of a decreasing R_d the integral grows at most like the area.
@@ -135,7 +136,7 @@ TEST(Extremes, LengthsOutsideAreRefusedInWords) {
     const auto refused = [](const std::string& model, const ChannelMedium& medium, double thickness,
                             const std::string& words) {
         try {
-            make(model, medium, thickness);
+            extremeProfile(model, medium, thickness);
             ADD_FAILURE() << model;
         } catch (const Error& error) {
             EXPECT_EQ(error.kind(), ErrorKind::BadInput);

@@ -80,12 +80,12 @@ ChannelMedium mediumOf(const std::string& material, const std::string& channel,
     return measured.at(material + channel);
 }
 
-struct Row {
+struct GoldenRow {
     std::string model, material, channel, params;
     double r, value, tail;
 };
 
-std::unique_ptr<Profile> profileOf(const Row& row) {
+std::unique_ptr<Profile> profileOf(const GoldenRow& row) {
     const Model& model = models().at(row.model);
     const auto p = parameters(row.params);
     ProfileOptions options;
@@ -100,7 +100,7 @@ double tolerance(const std::string& model) { return model.starts_with("pbd") ? 1
 /// The table's own error: its multipole series and its tails were cut at 25 digits of the peak.
 constexpr double kTableResidue = 1e-24;
 
-void checkDouble(const Row& row, const Profile& profile, double peak) {
+void checkDouble(const GoldenRow& row, const Profile& profile, double peak) {
     if (std::abs(row.value) < 1e-30 * peak) return;
     const std::string where =
         row.model + " " + row.material + " " + row.channel + " at r = " + std::to_string(row.r);
@@ -113,7 +113,7 @@ void checkDouble(const Row& row, const Profile& profile, double peak) {
     }
 }
 
-void checkSingle(const Row& row, const Profile& profile, double peak) {
+void checkSingle(const GoldenRow& row, const Profile& profile, double peak) {
     if (row.value < 1e-30 * peak || row.value < 1e-37) return;
     const std::array<float, 1> r{static_cast<float>(row.r)};
     std::array<float, 1> out{};
@@ -129,7 +129,7 @@ double number(const std::string& text) {
 }
 
 TEST(Golden, RowsKeptHere) {
-    const std::vector<Row> rows{
+    const std::vector<GoldenRow> rows{
         {"dipole", "Ketchup", "R", "", 4.149377593360995850622e-4, 2.719941517382341232124e-3,
          0.1638360092973587997966},
         {"nd_mfp_perp", "Ketchup", "R", "", 0.2214398021247431393425, 0.04380457714360743360873,
@@ -149,7 +149,7 @@ TEST(Golden, RowsKeptHere) {
         {"pbd_ss_N100", "Skimmilk", "R", "", 6.171601484292926072717e-3, 5.931496369254814740079,
          std::nan("")},
     };
-    for (const Row& row : rows) checkDouble(row, *profileOf(row), 0);
+    for (const GoldenRow& row : rows) checkDouble(row, *profileOf(row), 0);
 }
 
 TEST(Golden, ProfilesOfTheSharedTable) {
@@ -166,8 +166,8 @@ TEST(Golden, ProfilesOfTheSharedTable) {
     int checked = 0;
     while (std::getline(file, line)) {
         const auto f = split(line, ',');
-        const Row row{f[0],         f[1],         f[2],        f.size() > 7 ? f[7] : "",
-                      number(f[3]), number(f[4]), number(f[6])};
+        const GoldenRow row{f[0],         f[1],         f[2],        f.size() > 7 ? f[7] : "",
+                            number(f[3]), number(f[4]), number(f[6])};
         const std::string key = f[0] + f[1] + f[2] + row.params;
         if (cases.count(key) == 0) cases[key] = {profileOf(row), std::abs(row.value)};
         checkDouble(row, *cases[key].profile, cases[key].peak);
@@ -186,7 +186,7 @@ TEST(Golden, TotalsOfTheSharedTable) {
     while (std::getline(file, line)) {
         const auto f = split(line, ',');
         const std::string params = f[0].starts_with("nd_") ? std::string() : f[3];
-        const Row row{f[0], f[1], f[2], params, 0, 0, 0};
+        const GoldenRow row{f[0], f[1], f[2], params, 0, 0, 0};
         const double expected = number(f[4]);
         EXPECT_NEAR(profileOf(row)->total(), expected, 1e-10 * std::abs(expected)) << line;
         ++checked;

@@ -28,11 +28,11 @@ BatchMean simulatedTotal(const ChannelMedium& medium) {
     return tally.reflected;
 }
 
-constexpr std::array kModels{"dipole", "better_dipole", "photon_beam"};
+constexpr std::array kTabledModels{"dipole", "better_dipole", "photon_beam"};
 
 TEST(ModelTotals, DISABLED_Table) {
     std::printf("| medium | alpha' | Monte Carlo | transfer |");
-    for (const char* model : kModels) std::printf(" %s |", model);
+    for (const char* model : kTabledModels) std::printf(" %s |", model);
     std::printf("\n|---|---|---|---|---|---|---|\n");
     for (const MeasuredMedium& measured : measuredMedia().first(12)) {
         const Medium medium = toMedium(measured);
@@ -45,7 +45,7 @@ TEST(ModelTotals, DISABLED_Table) {
             std::printf("| %s %c | %.4f | %.5f ± %.5f | %.5f |", name.c_str(), "RGB"[c],
                         channel.reducedAlbedo(), truth.mean(), truth.standardError(),
                         halfSpaceTotals(channel).diffuse);
-            for (const char* model : kModels) {
+            for (const char* model : kTabledModels) {
                 double total = makeProfile(model, channel)->total();
                 // The beam's multiple scattering is meant to be added to its single scattering.
                 if (std::string(model) == "photon_beam") {

@@ -40,7 +40,8 @@ const std::vector<Subject>& subjects() {
     return all;
 }
 
-std::unique_ptr<Profile> make(const std::string& name, ChannelMedium medium, double thickness) {
+std::unique_ptr<Profile> profileOf(const std::string& name, ChannelMedium medium,
+                                   double thickness) {
     ProfileOptions options;
     options.slabThicknessMm = thickness;
     if (name == "normalized_diffusion_dmfp" && medium.sigmaA == 0) {
@@ -80,7 +81,7 @@ TEST(Profile, FiniteNonNegativeDecreasingAndItsIntegralIsTheTotal) {
             const ChannelMedium medium = media.next();
             // From a thousandth of a mean free path.
             const double thickness = std::pow(10.0, media.between(-3, 1)) * medium.meanFreePathMm();
-            const auto profile = make(subject.name, medium, thickness);
+            const auto profile = profileOf(subject.name, medium, thickness);
             const std::string where = subject.name + ": " + describe(medium);
             const double total = profile->total();
             EXPECT_TRUE(total >= 0 && total <= 1) << where << ": " << total;
@@ -104,7 +105,7 @@ TEST(Profile, TailIsTheQuadratureOfTheProfile) {
         for (int i = 0; i < 40; ++i) {
             const ChannelMedium medium = media.next();
             const auto profile =
-                make(subject.name, medium, media.between(1.5, 30) * medium.meanFreePathMm());
+                profileOf(subject.name, medium, media.between(1.5, 30) * medium.meanFreePathMm());
             const double a = profile->scaleMm() * std::pow(10.0, media.between(-3, 1));
             double sum = 0, lo = 0;
             for (double hi = 1e-6 * a; lo < a; hi = std::min(3 * hi, a)) {
@@ -129,8 +130,8 @@ TEST(Profile, ScalesWithTheLengths) {
             ChannelMedium denser = medium;
             denser.sigmaA *= k;
             denser.sigmaS *= k;
-            const auto one = make(subject.name, medium, thickness);
-            const auto other = make(subject.name, denser, thickness / k);
+            const auto one = profileOf(subject.name, medium, thickness);
+            const auto other = profileOf(subject.name, denser, thickness / k);
             for (const double x : {1e-3, 0.3, 4.0}) {
                 const double r = x * one->scaleMm();
                 const double expected = k * k * one->reflectance(r);
@@ -147,7 +148,7 @@ TEST(Profile, ContinuousThroughMatchedIndicesAndVanishingAbsorption) {
         const ChannelMedium clear{0, 1, 0.2, 1.3};
         for (const double r : {1e-3, 0.5, 5.0, 40.0}) {
             const auto at = [&](ChannelMedium medium) {
-                return make(subject.name, medium, 6)->reflectance(r);
+                return profileOf(subject.name, medium, 6)->reflectance(r);
             };
             const double one = at(matched);
             for (const double step : {-1e-12, 1e-12}) {
@@ -172,7 +173,7 @@ TEST(Profile, ContinuousForRandomMedia) {
             ChannelMedium medium = media.next();
             const double r = std::pow(10.0, media.between(-3, 1)) * medium.meanFreePathMm();
             const auto at = [&](const ChannelMedium& m) {
-                return make(subject.name, m, 3 * medium.meanFreePathMm())->reflectance(r);
+                return profileOf(subject.name, m, 3 * medium.meanFreePathMm())->reflectance(r);
             };
             medium.eta = 1;
             ChannelMedium near = medium;
@@ -196,7 +197,7 @@ TEST(Profile, DerivativeBoundsHoldAndAreNear) {
         for (const ChannelMedium& medium :
              {ChannelMedium{0.0041, 2.62, 0, 1.5}, ChannelMedium{0.97, 0.07, 0, 1.3},
               ChannelMedium{1e-7, 0.4, 0.5, 0.8}}) {
-            const auto profile = make(subject.name, medium, 5 * medium.meanFreePathMm());
+            const auto profile = profileOf(subject.name, medium, 5 * medium.meanFreePathMm());
             const auto f = [&](double r) { return profile->reflectance(r); };
             std::array<double, 3> largest{};  // of the derivatives from here on outwards
             double tightest = 1e300;
@@ -232,7 +233,7 @@ TEST(Profile, SinglePrecisionBatchAgrees) {
         for (int i = 0; i < subject.batches; ++i) {
             const ChannelMedium medium = media.next();
             const auto profile =
-                make(subject.name, medium, media.between(1.5, 30) * medium.meanFreePathMm());
+                profileOf(subject.name, medium, media.between(1.5, 30) * medium.meanFreePathMm());
             const double peak = profile->reflectance(1e-3 * profile->scaleMm());
             std::array<float, 64> r{}, out{};
             for (std::size_t k = 0; k < r.size(); ++k) {

@@ -3,6 +3,7 @@
 #include "sss/base/rng.h"
 #include "sss/base/sampler.h"
 #include "sss/optics/fresnel.h"
+#include "support/directions.h"
 
 #include <gtest/gtest.h>
 
@@ -11,10 +12,7 @@
 namespace sss {
 namespace {
 
-Vec3 direction(double cosine, double azimuth) {
-    const double sine = std::sqrt(1 - cosine * cosine);
-    return Vec3(DVec3{sine * std::cos(azimuth), sine * std::sin(azimuth), cosine});
-}
+using testing::direction;
 
 /// Integral of f over the upper hemisphere: midpoint rule, in tan(theta) = alpha t / (1 - t) so
 /// that a lobe of width alpha about the normal is resolved.

@@ -1,6 +1,7 @@
 #include "sss/optics/microsurface.h"
 
 #include "sss/optics/fresnel.h"
+#include "support/directions.h"
 
 #include <gtest/gtest.h>
 
@@ -9,10 +10,7 @@
 namespace sss {
 namespace {
 
-Vec3 direction(double cosine, double azimuth) {
-    const double sine = std::sqrt(1 - cosine * cosine);
-    return Vec3(DVec3{sine * std::cos(azimuth), sine * std::sin(azimuth), cosine});
-}
+using testing::direction;
 
 struct Mean {
     double value = 0, error = 0;
