@@ -6,7 +6,7 @@ import math
 import re
 
 from harness import BAD_INPUT, IO, SCENE, USAGE, CliTest, main
-from images import read_png
+from images import read_png, write_even_exr
 
 SMOOTH = {"stone": {"type": "translucent", "medium": "Marble"}}
 
@@ -142,6 +142,8 @@ class Compare(CliTest):
 
     def test_refusals(self):
         self.write("text.exr", "no picture")
+        write_even_exr(self.folder / "opaque.exr", 24, 16)
+        write_even_exr(self.folder / "grey.exr", 24, 16, ("Z",))
         for code, pattern, arguments in (
                 (USAGE, "needs a picture and a reference", ("--compare", "a.exr")),
                 (USAGE, "--layer: belongs to --compare", ("--layer", "Z")),
@@ -156,6 +158,9 @@ class Compare(CliTest):
                  ("--compare", "a.exr", "b.exr", "--layer", "difusion")),
                 (BAD_INPUT, "b.exr: has no layer called \"ball\"",
                  ("--compare", "a.exr", "b.exr", "--mask", "ball")),
+                (BAD_INPUT, "opaque.exr: has no alpha to be the mask",
+                 ("--compare", "a.exr", "opaque.exr", "--mask", "A")),
+                (BAD_INPUT, "grey.exr: has no R, G, B", ("--compare", "a.exr", "grey.exr")),
                 (BAD_INPUT, "text.exr", ("--compare", "a.exr", "text.exr")),
                 (IO, "none.exr", ("--compare", "none.exr", "b.exr")),
                 (IO, "nowhere", ("--compare", "a.exr", "b.exr",

@@ -1,4 +1,5 @@
-"""Just enough of PNG, EXR and PLY to look at what the programs write, without other packages."""
+"""Just enough of PNG, EXR and PLY to look at what the programs write, and to write what they read,
+without other packages."""
 
 import struct
 import zlib
@@ -77,6 +78,38 @@ def read_exr_header(path):
         at = end + 17
     attributes["channels"] = names
     return attributes
+
+
+def exr_attribute(name, kind, value):
+    return name.encode() + b"\0" + kind.encode() + b"\0" + struct.pack("<i", len(value)) + value
+
+
+def exr_header(width, height, channels=("B", "G", "R")):
+    """The head of an EXR of float channels without compression; their names in the order of the alphabet."""
+    listed = b"".join(name.encode() + b"\0" + struct.pack("<iBBBBii", 2, 0, 0, 0, 0, 1, 1)
+                      for name in channels) + b"\0"
+    window = struct.pack("<iiii", 0, 0, width - 1, height - 1)
+    return (struct.pack("<II", 20000630, 2)
+            + exr_attribute("channels", "chlist", listed)
+            + exr_attribute("compression", "compression", b"\0")
+            + exr_attribute("dataWindow", "box2i", window)
+            + exr_attribute("displayWindow", "box2i", window)
+            + exr_attribute("lineOrder", "lineOrder", b"\0")
+            + exr_attribute("pixelAspectRatio", "float", struct.pack("<f", 1))
+            + exr_attribute("screenWindowCenter", "v2f", struct.pack("<ff", 0, 0))
+            + exr_attribute("screenWindowWidth", "float", struct.pack("<f", 1)) + b"\0")
+
+
+def write_even_exr(path, width, height, channels=("B", "G", "R")):
+    """An EXR in which every value is 1."""
+    header = exr_header(width, height, channels)
+    row = struct.pack("<f", 1.0) * width * len(channels)
+    first, block = len(header) + 8 * height, 8 + len(row)
+    with open(path, "wb") as file:
+        file.write(header)
+        file.write(b"".join(struct.pack("<Q", first + y * block) for y in range(height)))
+        for y in range(height):
+            file.write(struct.pack("<ii", y, len(row)) + row)
 
 
 EXR_ZIP, EXR_LINES_A_CHUNK = 3, 16

@@ -13,10 +13,9 @@ import tempfile
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "cli"))
 
-from hard_files import exr_header, write_empty, write_sky
 from hard_meshes import BOX, BOX_RENDERS, CORNERS, FACES, HARD_MESHES, REFUSED, grid, obj
 from harness import BIN, SHARED
-from images import read_exr_values
+from images import exr_header, read_exr_values, write_even_exr
 
 BAD_INPUT, RESOURCES = 3, 5
 TIMEOUT_SECONDS = 900
@@ -213,7 +212,7 @@ def too_little_memory(folder, steps):
         yield row
         return
     (folder / "mesh.obj").write_text(obj(*BOX))
-    write_sky(folder / "sky.exr", 2048, 1024)
+    write_even_exr(folder / "sky.exr", 2048, 1024)
     least = least_address_space()
     for name, text in (("many points", scene([mesh_object()], spacing=0.05)),
                        ("a large sky", scene([mesh_object()], spacing=2, sky="sky.exr"))):
@@ -234,6 +233,13 @@ def too_little_memory(folder, steps):
                        else f"{name}, {limit >> 20} MiB: exit code {code}, {words[-300:]}")
             (folder / "a.ssc").write_bytes(b"old")
     yield row
+
+
+def write_empty(path, size, start=b""):
+    """A file of `size` bytes that take no room on the disk."""
+    with open(path, "wb") as file:
+        file.write(start)
+        file.truncate(size)
 
 
 FEWER_POINTS = "check the scale of the scene (metersPerUnit), raise the tolerance"

@@ -245,7 +245,7 @@ void stressAllocations(Report& report, Scope scope) {
         {"a folder of stages: said so, what is there is whole",
          [&] { makeStages(maker.scene, stages); }, wholeStages(stages)},
     };
-    for (const Work& work : works) report.add(tried(work, scope == Scope::Full ? 3000 : 18));
+    for (const Work& work : works) report.add(tried(work, scope == Scope::Full ? 1500 : 18));
 }
 
 }  // namespace sss::stress

@@ -131,7 +131,7 @@ private:
 void stressStages(Report& report, Scope scope) {
     const DamagedFolder folder;
     // A run takes as long as a thousand openings.
-    const int everyRun = scope == Scope::Full ? 5 : 307;
+    const int everyRun = scope == Scope::Full ? 10 : 307;
     Row refused("stages", "a stage's file cut or flipped: refused by name", 0);
     Row same("stages", "a run with a damaged stage: a warning, the same outcome", 0);
     Row lies("stages", "a stage with right checksums of wrong content: no crash", 0);

@@ -109,7 +109,7 @@ void stressSurfaces(Report& report, Scope scope) {
     // there may be as many as there are candidates, six for one announced.
     Row count("surfaces", "number of points against what was announced", 6);
     Row threads("surfaces", "any number of threads: the same points", 0);
-    for (const Surface& surface : hardSurfaces(scope == Scope::Full ? 10 : 1)) {
+    for (const Surface& surface : hardSurfaces(scope == Scope::Full ? 4 : 1)) {
         const SamplerOptions options{.spacingMm = surface.spacing, .seed = 1};
         const SurfaceSamples samples = sampleSurface(surface.mesh, options);
         const auto where = [&] { return std::string(surface.name); };

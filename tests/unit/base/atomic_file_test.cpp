@@ -2,14 +2,13 @@
 
 #include "sss/base/abandoned_files.h"
 #include "sss/base/error.h"
+#include "support/full_disk.h"
 #include "support/temporary_folder.h"
 
 #include <gtest/gtest.h>
-#include <sys/resource.h>
 
 #include <algorithm>
 #include <atomic>
-#include <csignal>
 #include <memory>
 #include <thread>
 #include <vector>
@@ -155,24 +154,36 @@ TEST(AtomicFile, IsNotTornFromItsWriterAtItsBirth) {
 TEST(AtomicFile, AFullDiskLeavesTheOldFile) {
     const TemporaryFolder folder;
     writeFile(folder / "out", "old");
-    rlimit before{};
-    ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &before), 0);
-    const auto oldHandler = std::signal(SIGXFSZ, SIG_IGN);
-    rlimit tiny = before;
-    tiny.rlim_cur = 100;
-    ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &tiny), 0);
     std::string message;
     try {
+        const testing::FullDisk disk(100);
         AtomicFile file(folder / "out");
         file.append(std::string(1000, 'x'));
         file.commit();
     } catch (const Error& error) {
         message = error.what();
     }
-    setrlimit(RLIMIT_FSIZE, &before);
-    std::signal(SIGXFSZ, oldHandler);
     EXPECT_NE(message.find("File too large"), std::string::npos) << message;
     EXPECT_EQ(readFile(folder / "out"), "old");
+    EXPECT_EQ(folder.fileCount(), 1u);
+}
+
+// Somebody makes a folder of that name while the file is being written.
+TEST(AtomicFile, AFolderThatCameMeanwhileIsAnErrorAndStays) {
+    const TemporaryFolder folder;
+    std::string message;
+    try {
+        AtomicFile file(folder / "out");
+        file.append("new");
+        std::filesystem::create_directory(folder / "out");
+        file.commit();
+    } catch (const Error& error) {
+        EXPECT_EQ(error.kind(), ErrorKind::Io);
+        message = error.what();
+    }
+    EXPECT_NE(message.find("cannot rename into place: Is a directory"), std::string::npos)
+        << message;
+    EXPECT_TRUE(std::filesystem::is_directory(folder / "out"));
     EXPECT_EQ(folder.fileCount(), 1u);
 }
 

@@ -2,6 +2,7 @@
 
 #include "sss/base/error.h"
 #include "sss/base/rng.h"
+#include "support/full_disk.h"
 #include "support/temporary_folder.h"
 
 #include <gtest/gtest.h>
@@ -123,6 +124,21 @@ TEST_F(ExrFile, UnwritablePlaceLeavesNothing) {
     EXPECT_THROW(writeExr(at("none") / "a.exr", picture()), Error);
     fs::create_directory(at("folder.exr"));
     EXPECT_THROW(writeExr(at("folder.exr"), picture()), Error);
+    EXPECT_EQ(folder_.fileCount(), 1u);
+}
+
+TEST_F(ExrFile, AFullDiskIsAnErrorAndTheOldFileStays) {
+    writeBytes(at("a.exr"), "old");
+    std::string message;
+    try {
+        const testing::FullDisk disk(100);
+        writeExr(at("a.exr"), picture());
+    } catch (const Error& error) {
+        EXPECT_EQ(error.kind(), ErrorKind::Io);
+        message = error.what();
+    }
+    EXPECT_NE(message.find("a.exr: cannot write the picture: "), std::string::npos) << message;
+    EXPECT_EQ(bytes(at("a.exr")), "old");
     EXPECT_EQ(folder_.fileCount(), 1u);
 }
 

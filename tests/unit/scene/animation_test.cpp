@@ -143,6 +143,9 @@ TEST(Animation, SaysWhereItCannotBeMeant) {
     expectRefused(R"({"keys": [{"frame": 1, "value": -1}]})", "\"intensity\" is -1");
     expectRefused(R"({"keys": [{"frame": 1, "value": 1}], "interpolation": "cubic"})", "cubic");
     expectRefused(R"({"keys": [{"frame": 1, "value": {"axis": [0, 1, 0]}}]})", "lacks");
+    expectRefused(
+        R"({"keys": [{"frame": 1, "value": {"axis": [0, 1, 0], "degrees": 9, "radians": 1}}]})",
+        "has 3 members; a rotation has \"axis\" and \"degrees\"");
     Parts parts;
     parts.rest = R"(, "film": {"samples": {"keys": [{"frame": 1, "value": 4}]}})";
     EXPECT_NE(complaint(parts).find("samples"), std::string::npos);

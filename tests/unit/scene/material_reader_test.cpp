@@ -145,6 +145,21 @@ TEST(BoundaryOverride, ReachesEveryTranslucentMaterial) {
     EXPECT_THROW(boundaryModel("polinomial", "--boundary"), Error);
 }
 
+TEST(ModelOverride, RefusesWhatIsNoModelOfAWholeScene) {
+    Scene scene = read({});
+    for (const char* name : {"multipole", "dipol"}) {
+        try {
+            setModel(scene, name, "--model");
+            ADD_FAILURE() << name << " was accepted";
+        } catch (const Error& error) {
+            EXPECT_EQ(error.kind(), ErrorKind::Usage);
+            const std::string start = std::string("--model: there is no model of diffusion \"") +
+                                      name + "\" for a whole scene; ";
+            EXPECT_EQ(std::string(error.what()).substr(0, start.size()), start);
+        }
+    }
+}
+
 TEST(MaterialReader, ReadsEveryMeasuredMedium) {
     for (const MeasuredMedium& measured : measuredMedia()) {
         const Scene scene =
