@@ -18,9 +18,9 @@ void requireMemory(const std::string& where, std::string_view what, std::uint64_
 }
 
 bool saysOutOfMemory(std::string_view words) {
-    // C++ itself and Embree, libpng, zlib.
-    for (const std::string_view sign :
-         {"bad_alloc", "out of memory", "Out of memory", "insufficient memory"})
+    // C++ itself and Embree, libpng, zlib; Embree where there is no room for a thread's stack.
+    for (const std::string_view sign : {"bad_alloc", "out of memory", "Out of memory",
+                                        "insufficient memory", "pthread_create has failed"})
         if (words.find(sign) != words.npos) return true;
     return false;
 }

@@ -10,7 +10,8 @@ namespace sss {
 void requireMemory(const std::string& where, std::string_view what, std::uint64_t bytes,
                    const std::string& hint);
 
-/// Whether an error of another library, which comes as words only, is a failed allocation.
+/// Whether an error of another library, which comes as words only, is a failed allocation (of a
+/// thread's stack, too).
 bool saysOutOfMemory(std::string_view words);
 
 }  // namespace sss
