@@ -14,7 +14,7 @@ BodyCloud cloudOf(const Stage& stage, const std::string& cacheFile) {
             {view.cloud.irradiance.begin(), view.cloud.irradiance.end()},
             {view.nodes.begin(), view.nodes.end()},
             view.spacingMm,
-            {view.correction.begin(), view.correction.end()}};
+            {view.solved.begin(), view.solved.end()}};
 }
 
 }  // namespace

@@ -34,7 +34,7 @@ PassOneEstimate::Trial PassOneEstimate::tryOut(const World& light, int bodyIndex
     if (optics[b]->onShape) {
         BodyCloud cloud = buildCloud(trial, std::move(lit.irradiance), report);
         cloud.spacingMm = spacingMm;  // too far apart, nothing would be solved
-        shapeCorrection(light, bodyIndex, trial, lit.beams, optics, cloud.view(), silent, report);
+        shapeSolution(light, bodyIndex, trial, lit.beams, optics, cloud.view(), silent, report);
     }
     const auto count = static_cast<double>(trial.size());
     return {placingSeconds + std::max(0.0, wanted - count) * kSecondsPerPoint,

@@ -89,10 +89,10 @@ void StageChain::adopt(std::size_t b) {
     stage.hasShape = held.hasShape && held.shape == stage.shape;
     if (stage.hasShape) {
         stage.shapeFile = held.shapeFile;
-        stage.correction = held.correction;
+        stage.solved = held.solved;
         return;
     }
-    stage.view.correction = {};
+    stage.view.solved = {};
     stage.report.shape.reset();
     stage.report.unscatteredShare.reset();
 }

@@ -165,7 +165,7 @@ bool StageChain::takeShape(std::size_t b) {
     stage.report.unscatteredShare =
         reportOf(metadataOf(*file), file->path().string()).unscatteredShare;
     stage.shapeFile = std::make_shared<CacheFile>(std::move(*file));
-    stage.view.correction = correctionOf(*stage.shapeFile, 0, stage.view.cloud.points.size());
+    stage.view.solved = solvedOf(*stage.shapeFile, 0, stage.view.cloud.points.size());
     stage.hasShape = true;
     return true;
 }
@@ -185,14 +185,14 @@ void StageChain::makeShape(std::size_t b) {
         stage.lit = std::make_shared<const SurfaceSamples>(points(b));
     {
         const auto timer = stats_.seconds("shape");
-        stage.correction = std::make_shared<const std::vector<Rgb>>(shapeCorrection(
+        stage.solved = std::make_shared<const std::vector<SolvedExitance>>(shapeSolution(
             lightSpace(), static_cast<int>(b), stage.lit ? *stage.lit : SurfaceSamples{}, *entered,
             now_->optics, stage.view, reporter_, stage.report));
     }
-    stage.view.correction = *stage.correction;
+    stage.view.solved = *stage.solved;
     stage.hasShape = true;
     write(b, Stage::Correction, stage.report,
-          [&](CacheWriter& writer) { addCorrection(writer, 0, stage.inputs, *stage.correction); });
+          [&](CacheWriter& writer) { addSolved(writer, 0, stage.inputs, *stage.solved); });
 }
 
 // They come with the irradiance. Where that was made for a profile, light is followed once more.

@@ -21,7 +21,7 @@ struct StageChain::BodyStage {
     std::shared_ptr<const CacheFile> file, shapeFile;
     std::shared_ptr<const CloudCache> cache;
     std::shared_ptr<const BodyCloud> made;
-    std::shared_ptr<const std::vector<Rgb>> correction;
+    std::shared_ptr<const std::vector<SolvedExitance>> solved;
     BodyCloud::View view;
     bool hasLight = false, hasShape = false;  // in the view
     BodyReport report;

@@ -74,10 +74,10 @@ Vec3 ExitanceBuilder::positionOf(std::size_t patch, const Vec2& inPatch) const {
 }
 
 void ExitanceBuilder::sumAt(std::span<const Vec3> positions, std::span<Rgb> values,
-                            ExitanceCounts& counts) {
+                            std::span<ExitanceSlope> slopes, ExitanceCounts& counts) {
     sum_.evaluate(positions, tolerance_ * kSumShare, values, scratch_, counts.sums);
     if (correction_ == nullptr) return;
-    correction_->addTo(positions, values);
+    correction_->addTo(positions, values, slopes);
     for (Rgb& value : values) value = glm::max(value, Rgb(0));
 }
 
@@ -103,7 +103,9 @@ void ExitanceBuilder::layOut(ExitanceCounts& counts) {
     }
     const std::size_t old = group_.values.size();
     group_.values.resize(old + fresh.size());
-    sumAt(fresh, std::span(group_.values).subspan(old), counts);
+    if (correction_ != nullptr) group_.slopes.resize(group_.values.size());
+    sumAt(fresh, std::span(group_.values).subspan(old),
+          std::span(group_.slopes).subspan(correction_ != nullptr ? old : 0), counts);
     counts.sites += fresh.size();
 }
 
@@ -112,7 +114,7 @@ double ExitanceBuilder::missBetweenCorners(ExitanceCounts& counts) {
     std::vector<Vec3> positions;
     for (const Probe& probe : probes) positions.push_back(positionOf(probe.patch, probe.inPatch));
     std::vector<Rgb> truth(probes.size());
-    sumAt(positions, truth, counts);
+    sumAt(positions, truth, {}, counts);
     double worst = 0;
     for (std::size_t k = 0; k < probes.size(); ++k)
         worst = std::max(

@@ -48,7 +48,8 @@ private:
     Vec3 positionOf(std::size_t patch, const Vec2& inPatch) const;
     /// Grids of all patches at their levels; sums at sites that are new.
     void layOut(ExitanceCounts& counts);
-    void sumAt(std::span<const Vec3> positions, std::span<Rgb> values, ExitanceCounts& counts);
+    void sumAt(std::span<const Vec3> positions, std::span<Rgb> values,
+               std::span<ExitanceSlope> slopes, ExitanceCounts& counts);
     /// Largest relative miss at the places where the corners differ most.
     double missBetweenCorners(ExitanceCounts& counts);
     /// Largest relative distance of a patch's newest sites from what its coarser grid says there.

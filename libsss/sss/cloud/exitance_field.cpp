@@ -65,6 +65,7 @@ bool ExitanceField::adopt(std::uint32_t index, ExitanceGroup group) {
         const std::uint32_t n = group.segments[p];
         if (n == 0 || n % patches[p].segments != 0) return false;
     }
+    if (group.slopes.size() != (correction_ != nullptr ? group.values.size() : 0)) return false;
     groups_[index].store(new ExitanceGroup(std::move(group)));
     return true;
 }
@@ -78,6 +79,11 @@ void ExitanceField::forEachGroup(
 Rgb ExitanceField::at(FaceIndex face, const Vec2& barycentrics) const {
     const ExitanceSites::Location where = sites_.locate(face, barycentrics);
     return group(where.group).at(where.patch, where.inPatch);
+}
+
+Rgb ExitanceField::at(FaceIndex face, const Vec2& barycentrics, const Vec3& towards) const {
+    const ExitanceSites::Location where = sites_.locate(face, barycentrics);
+    return group(where.group).at(where.patch, where.inPatch, towards);
 }
 
 ExitanceCounts ExitanceField::counts() const {

@@ -30,9 +30,11 @@ public:
 
     /// M at a place of the surface, W m^-2 per channel.
     Rgb at(FaceIndex face, const Vec2& barycentrics) const;
+    /// What it would be if all light left as that which goes `towards` (unit, space of the mesh).
+    Rgb at(FaceIndex face, const Vec2& barycentrics, const Vec3& towards) const;
     ExitanceCounts counts() const;
-    /// Takes a group that was computed before, for this mesh, sum and tolerance. False, and nothing
-    /// done, if it does not fit the mesh or is there already. Not while others ask.
+    /// Takes a group that was computed before, for this mesh, sum, correction and tolerance. False,
+    /// and nothing done, if it does not fit the mesh or is there already. Not while others ask.
     bool adopt(std::uint32_t index, ExitanceGroup group);
     /// All groups that are there, by index. Not while others ask.
     void forEachGroup(const std::function<void(std::uint32_t, const ExitanceGroup&)>& visit) const;

@@ -5,6 +5,9 @@
 namespace sss {
 namespace {
 
+// Of the exitance, by how much light leans at most: first order says nothing of more.
+constexpr float kMostLean = 0.6f;
+
 // A triangle of the grid with corners at even steps: where it lies, and the place in it.
 struct Element {
     std::uint32_t i, j;  // its corner of the right angle, in elements
@@ -67,6 +70,17 @@ Rgb ExitanceGroup::at(std::uint32_t patch, const Vec2& inPatch) const {
         value += values[site[stencil.point[k]]] * stencil.weight[k];
     // Parabolas may undershoot where the light ends.
     return glm::max(value, Rgb(0.0f));
+}
+
+Rgb ExitanceGroup::at(std::uint32_t patch, const Vec2& inPatch, const Vec3& towards) const {
+    const Rgb value = at(patch, inPatch);
+    if (slopes.empty()) return value;
+    const GridStencil stencil = gridStencil(inPatch, segments[patch]);
+    const std::uint16_t* site = siteOf.data() + firstSite[patch];
+    Rgb lean(0.0f);
+    for (std::size_t k = 0; k < stencil.point.size(); ++k)
+        lean += slopes[site[stencil.point[k]]].along(towards) * stencil.weight[k];
+    return value + glm::clamp(lean, -kMostLean * value, kMostLean * value);
 }
 
 }  // namespace sss

@@ -1,5 +1,6 @@
 #pragma once
 #include "sss/base/vec.h"
+#include "sss/cloud/solved_exitance.h"
 
 #include <array>
 #include <cstdint>
@@ -29,8 +30,11 @@ struct ExitanceGroup {
     std::vector<std::uint8_t> segments;    ///< per patch, refined
     std::vector<std::uint16_t> siteOf;     ///< into values
     std::vector<Rgb> values;
+    std::vector<ExitanceSlope> slopes;  ///< by value; empty where light leaves all ways alike
 
     Rgb at(std::uint32_t patch, const Vec2& inPatch) const;
+    /// What it would be if all light left as that which goes `towards` (unit, space of the slopes).
+    Rgb at(std::uint32_t patch, const Vec2& inPatch, const Vec3& towards) const;
 };
 
 }  // namespace sss

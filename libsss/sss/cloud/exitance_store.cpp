@@ -11,6 +11,7 @@ void ExitanceStore::add(std::uint32_t group, const ExitanceGroup& exitance) {
     segments.insert(segments.end(), exitance.segments.begin(), exitance.segments.end());
     siteOf.insert(siteOf.end(), exitance.siteOf.begin(), exitance.siteOf.end());
     values.insert(values.end(), exitance.values.begin(), exitance.values.end());
+    slopes.insert(slopes.end(), exitance.slopes.begin(), exitance.slopes.end());
 }
 
 namespace {
@@ -27,6 +28,10 @@ std::vector<T> take(std::span<const T>& from, std::size_t count, bool& ok) {
     return taken;
 }
 
+bool isSound(const ExitanceSlope& slope) {
+    return isFinite(slope.x) && isFinite(slope.y) && isFinite(slope.z);
+}
+
 }  // namespace
 
 bool forEachGroup(const ExitanceStore::View& store,
@@ -38,6 +43,7 @@ bool forEachGroup(const ExitanceStore::View& store,
         group.segments = take(rest.segments, entry.patches, ok);
         group.siteOf = take(rest.siteOf, entry.sites, ok);
         group.values = take(rest.values, entry.values, ok);
+        if (!store.slopes.empty()) group.slopes = take(rest.slopes, entry.values, ok);
         std::uint32_t sites = 0;
         for (const std::uint32_t n : group.segments) {
             group.firstSite.push_back(sites);
@@ -46,10 +52,11 @@ bool forEachGroup(const ExitanceStore::View& store,
         const auto isKnown = [&](std::uint16_t site) { return site < group.values.size(); };
         if (!ok || sites != group.siteOf.size() || !std::ranges::all_of(group.siteOf, isKnown) ||
             !std::ranges::all_of(group.values, [](const Rgb& v) { return isFinite(v); }) ||
-            !visit(entry.group, std::move(group)))
+            !std::ranges::all_of(group.slopes, isSound) || !visit(entry.group, std::move(group)))
             return false;
     }
-    return rest.segments.empty() && rest.siteOf.empty() && rest.values.empty();
+    return rest.segments.empty() && rest.siteOf.empty() && rest.values.empty() &&
+           rest.slopes.empty();
 }
 
 }  // namespace sss

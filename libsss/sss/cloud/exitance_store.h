@@ -19,14 +19,16 @@ struct ExitanceStore {
         std::span<const std::uint8_t> segments;
         std::span<const std::uint16_t> siteOf;
         std::span<const Rgb> values;
+        std::span<const ExitanceSlope> slopes{};  ///< by value, or none
     };
     std::vector<Entry> entries;
     std::vector<std::uint8_t> segments;
     std::vector<std::uint16_t> siteOf;
     std::vector<Rgb> values;
+    std::vector<ExitanceSlope> slopes;
 
     void add(std::uint32_t group, const ExitanceGroup& exitance);
-    View view() const { return {entries, segments, siteOf, values}; }
+    View view() const { return {entries, segments, siteOf, values, slopes}; }
 };
 
 /// Hands on the groups of a store that are whole in themselves; false if the arrays do not fit

@@ -25,10 +25,15 @@ std::vector<Vec3> positionsOf(std::span<const SurfacePoint> points) {
 }  // namespace
 
 PointInterpolator::PointInterpolator(std::span<const SurfacePoint> points,
-                                     std::span<const Rgb> values)
-    : points_(points), values_(values), positions_(positionsOf(points)), nearest_(positions_) {}
+                                     std::span<const SolvedExitance> values, const Rgb& leanMm)
+    : points_(points),
+      values_(values),
+      leanMm_(leanMm),
+      positions_(positionsOf(points)),
+      nearest_(positions_) {}
 
-Rgb PointInterpolator::fit(const Vec3& place, std::span<const std::uint32_t> near) const {
+Rgb PointInterpolator::fit(const Vec3& place, std::span<const std::uint32_t> near,
+                           ExitanceSlope* slope) const {
     const Vec3 normal = decodeUnitVector(points_[near.front()].normal);
     const Frame frame(normal);
     double area = 0;
@@ -37,7 +42,8 @@ Rgb PointInterpolator::fit(const Vec3& place, std::span<const std::uint32_t> nea
     // Sums of w, w u, w v, w uu, w uv, w vv, and of these with the values.
     DMat3 moments(0.0);
     DRgb ones{0}, us{0}, vs{0};
-    Rgb lo = values_[near.front()], hi = lo;
+    DRgb allOnes{0}, allUs{0}, allVs{0};  // of the exitance
+    Rgb lo = values_[near.front()].correction, hi = lo;
     for (const std::uint32_t i : near) {
         const float facing = glm::dot(normal, decodeUnitVector(points_[i].normal));
         if (facing <= 0) continue;
@@ -47,26 +53,41 @@ Rgb PointInterpolator::fit(const Vec3& place, std::span<const std::uint32_t> nea
         const Vec3 local = frame.toLocal(d);
         const DVec3 basis(1.0, local.x, local.y);
         moments += w * glm::outerProduct(basis, basis);
-        const DRgb value(values_[i]);
+        const DRgb value(values_[i].correction), all(values_[i].exitance);
         ones += w * value;
         us += w * basis.y * value;
         vs += w * basis.z * value;
-        lo = glm::min(lo, values_[i]);
-        hi = glm::max(hi, values_[i]);
+        allOnes += w * all;
+        allUs += w * basis.y * all;
+        allVs += w * basis.z * all;
+        lo = glm::min(lo, values_[i].correction);
+        hi = glm::max(hi, values_[i].correction);
     }
     const double total = moments[0][0];
-    if (!(total > 0)) return values_[near.front()];
+    if (!(total > 0)) return values_[near.front()].correction;
     Rgb value(ones / total);
     if (glm::determinant(moments) > kFlat * total * total * total * spread * spread) {
-        // Value at the place itself: first row of the inverse, which is symmetric.
-        const DVec3 row = glm::inverse(moments)[0];
-        value = Rgb(row.x * ones + row.y * us + row.z * vs);
+        // Value at the place itself and slopes along the frame: rows of the inverse, which is
+        // symmetric.
+        const DMat3 inverse = glm::inverse(moments);
+        const auto solved = [&](int row, const DRgb& one, const DRgb& u, const DRgb& v) {
+            return Rgb(inverse[row].x * one + inverse[row].y * u + inverse[row].z * v);
+        };
+        value = solved(0, ones, us, vs);
+        if (slope != nullptr) {
+            const Rgb u = leanMm_ * solved(1, allOnes, allUs, allVs),
+                      v = leanMm_ * solved(2, allOnes, allUs, allVs);
+            const Vec3 alongU = frame.toWorld({1, 0, 0}), alongV = frame.toWorld({0, 1, 0});
+            *slope = {-(u * alongU.x + v * alongV.x), -(u * alongU.y + v * alongV.y),
+                      -(u * alongU.z + v * alongV.z)};
+        }
     }
     const Rgb margin = kOvershoot * (hi - lo);
     return glm::clamp(value, lo - margin, hi + margin);
 }
 
-void PointInterpolator::addTo(std::span<const Vec3> places, std::span<Rgb> out) const {
+void PointInterpolator::addTo(std::span<const Vec3> places, std::span<Rgb> out,
+                              std::span<ExitanceSlope> slopes) const {
     const std::size_t count = std::min(kNeighbours, points_.size());
     std::vector<std::uint32_t> near;
     for (std::size_t begin = 0; begin < places.size(); begin += NearestPoints::kBatch) {
@@ -75,7 +96,8 @@ void PointInterpolator::addTo(std::span<const Vec3> places, std::span<Rgb> out) 
         near.resize(batch.size() * count);
         nearest_.query(batch, count, near);
         for (std::size_t i = 0; i < batch.size(); ++i)
-            out[begin + i] += fit(batch[i], std::span(near).subspan(i * count, count));
+            out[begin + i] += fit(batch[i], std::span(near).subspan(i * count, count),
+                                  slopes.empty() ? nullptr : &slopes[begin + i]);
     }
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 #include "sss/cloud/octree.h"
 #include "sss/cloud/point_cloud.h"
+#include "sss/cloud/solved_exitance.h"
 
 #include <span>
 #include <vector>
@@ -13,17 +14,16 @@ struct BodyCloud {
     std::vector<Rgb> irradiance;
     std::vector<OctreeNode> nodes;
     double spacingMm = 0;
-    /// By point: exitance by diffusion on the body's own shape less that by the profile; empty
-    /// where the profile is all.
-    std::vector<Rgb> correction;
+    /// By point: diffusion on the body's own shape; empty where the profile is all.
+    std::vector<SolvedExitance> solved;
 
     struct View {
         CloudView cloud;
         std::span<const OctreeNode> nodes;
         double spacingMm = 0;
-        std::span<const Rgb> correction;
+        std::span<const SolvedExitance> solved;
     };
-    View view() const { return {{points, irradiance}, nodes, spacingMm, correction}; }
+    View view() const { return {{points, irradiance}, nodes, spacingMm, solved}; }
 };
 
 }  // namespace sss

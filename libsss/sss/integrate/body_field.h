@@ -23,6 +23,10 @@ public:
     Rgb exitance(FaceIndex face, const Vec2& barycentrics) const {
         return field_.at(face, barycentrics);
     }
+    /// What it would be if all light left as that which goes `towards` (unit, body space).
+    Rgb exitance(FaceIndex face, const Vec2& barycentrics, const Vec3& towards) const {
+        return field_.at(face, barycentrics, towards);
+    }
     const DiffusionSum& sum() const { return sum_; }
     ExitanceField& field() { return field_; }
     const ExitanceField& field() const { return field_; }

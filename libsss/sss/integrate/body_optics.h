@@ -25,7 +25,7 @@ struct BodyOptics {
     /// Whether diffusion is solved on the body's shape: then it leaves out by itself, place by
     /// place, what is scattered once, and is not scaled.
     bool onShape = false;
-    /// Whether enough light goes straight through to be looked for (shapeCorrection()).
+    /// Whether enough light goes straight through to be looked for (shapeSolution()).
     bool seesThrough = false;
     /// By which it is scaled where it is seen at second hand and nobody looks for single
     /// scattering.

@@ -11,7 +11,8 @@ BssrdfExitance::BssrdfExitance(const World& world,
                            IrradianceEstimator(world, indirect_, optics[b]->eta)});
 }
 
-Rgb BssrdfExitance::exitance(const SurfaceHit& hit, Sampler& sampler, PathCounts& counts) const {
+Rgb BssrdfExitance::exitance(const SurfaceHit& hit, const Vec3&, Sampler& sampler,
+                             PathCounts& counts) const {
     Sampler side = sampler.branch();
     const BodySource& body = bodies_[static_cast<std::size_t>(hit.body)];
     if (body.entries.isEmpty()) return Rgb(0);

@@ -19,7 +19,8 @@ public:
     BssrdfExitance(const World& world, std::span<const std::unique_ptr<BodyOptics>> optics);
     BssrdfExitance(const BssrdfExitance&) = delete;
     BssrdfExitance& operator=(const BssrdfExitance&) = delete;
-    Rgb exitance(const SurfaceHit& hit, Sampler& sampler, PathCounts& counts) const override;
+    Rgb exitance(const SurfaceHit& hit, const Vec3& wo, Sampler& sampler,
+                 PathCounts& counts) const override;
 
 private:
     struct BodySource {

@@ -79,7 +79,7 @@ CloudCache::CloudCache(const std::filesystem::path& path, const World& world,
         const BodyReport& report = reports_.emplace_back(reportOf(bodies[b], where));
         BodyCloud::View& view = views_.emplace_back(cloudOf(file_, b, report.spacingMm));
         if (!optics[b]->onShape) continue;
-        view.correction = correctionOf(file_, b, view.cloud.points.size());
+        view.solved = solvedOf(file_, b, view.cloud.points.size());
         optics[b]->lookThroughIf(report.unscatteredShare, world.scene().quality.tolerance);
     }
 }

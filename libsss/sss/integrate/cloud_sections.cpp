@@ -57,7 +57,7 @@ void addCloud(CacheWriter& writer, std::uint32_t b, const BodyInputs& inputs,
     writer.add<SurfacePoint>(kPoints, b, pointsFingerprint(inputs), cloud.cloud.points);
     writer.add<Rgb>(kIrradiance, b, light, cloud.cloud.irradiance);
     writer.add<OctreeNode>(kOctree, b, light, cloud.nodes);
-    if (!cloud.correction.empty()) addCorrection(writer, b, inputs, cloud.correction);
+    if (!cloud.solved.empty()) addSolved(writer, b, inputs, cloud.solved);
 }
 
 BodyCloud::View cloudOf(const CacheFile& file, std::uint32_t b, double spacingMm) {
@@ -69,16 +69,17 @@ BodyCloud::View cloudOf(const CacheFile& file, std::uint32_t b, double spacingMm
     return {cloud, nodes, spacingMm, {}};
 }
 
-void addCorrection(CacheWriter& writer, std::uint32_t b, const BodyInputs& inputs,
-                   std::span<const Rgb> correction) {
-    writer.add<Rgb>(kShape, b, shapeFingerprint(inputs), correction);
+void addSolved(CacheWriter& writer, std::uint32_t b, const BodyInputs& inputs,
+               std::span<const SolvedExitance> solved) {
+    writer.add<SolvedExitance>(kShape, b, shapeFingerprint(inputs), solved);
 }
 
-std::span<const Rgb> correctionOf(const CacheFile& file, std::uint32_t b, std::size_t points) {
-    const auto correction = file.section<Rgb>(kShape, b);
-    if (correction.size() != points)
-        refuse(file, fmt::format("the correction of body {} does not fit its points", b));
-    return correction;
+std::span<const SolvedExitance> solvedOf(const CacheFile& file, std::uint32_t b,
+                                         std::size_t points) {
+    const auto solved = file.section<SolvedExitance>(kShape, b);
+    if (solved.size() != points)
+        refuse(file, fmt::format("the solution of body {} does not fit its points", b));
+    return solved;
 }
 
 void addBeams(CacheWriter& writer, const BodyInputs& inputs, const EnteredBeams& beams) {

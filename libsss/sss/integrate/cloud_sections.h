@@ -10,16 +10,18 @@ namespace sss {
 // What cache files say of a body, section by section: in one file for all bodies (cloud_cache.h) or
 // in a file for each stage (stage_files.h).
 
-/// Points, irradiance, octree and (if there is any) correction as sections of body number `b`.
+/// Points, irradiance, octree and (if there is one) the solution on the body's shape, as sections
+/// of body number `b`.
 void addCloud(CacheWriter& writer, std::uint32_t b, const BodyInputs& inputs,
               const BodyCloud::View& cloud);
 /// The same as they lie in the file. Throws Error{BadInput} if they do not fit each other: then
 /// some other program wrote them, for the checksums hold.
 BodyCloud::View cloudOf(const CacheFile& file, std::uint32_t b, double spacingMm);
-/// The correction of body `b` with its shape, for as many points. Throws Error{BadInput} as above.
-std::span<const Rgb> correctionOf(const CacheFile& file, std::uint32_t b, std::size_t points);
-void addCorrection(CacheWriter& writer, std::uint32_t b, const BodyInputs& inputs,
-                   std::span<const Rgb> correction);
+/// Diffusion on the shape of body `b`, for as many points. Throws Error{BadInput} as above.
+std::span<const SolvedExitance> solvedOf(const CacheFile& file, std::uint32_t b,
+                                         std::size_t points);
+void addSolved(CacheWriter& writer, std::uint32_t b, const BodyInputs& inputs,
+               std::span<const SolvedExitance> solved);
 
 /// Beams by point.
 void addBeams(CacheWriter& writer, const BodyInputs& inputs, const EnteredBeams& beams);

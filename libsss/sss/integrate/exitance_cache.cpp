@@ -11,12 +11,16 @@ namespace sss {
 namespace {
 
 constexpr std::string_view kGroups = "exgroups", kSegments = "exsegms", kSites = "exsites",
-                           kValues = "exvalues";
+                           kValues = "exvalues", kSlopes = "exslopes";
 
 ExitanceStore::View storeOf(const CacheFile& cache, std::uint32_t body) {
-    return {cache.section<ExitanceStore::Entry>(kGroups, body),
-            cache.section<std::uint8_t>(kSegments, body),
-            cache.section<std::uint16_t>(kSites, body), cache.section<Rgb>(kValues, body)};
+    ExitanceStore::View store{cache.section<ExitanceStore::Entry>(kGroups, body),
+                              cache.section<std::uint8_t>(kSegments, body),
+                              cache.section<std::uint16_t>(kSites, body),
+                              cache.section<Rgb>(kValues, body),
+                              {}};
+    if (cache.find(kSlopes, body)) store.slopes = cache.section<ExitanceSlope>(kSlopes, body);
+    return store;
 }
 
 void write(CacheWriter& writer, std::uint32_t body, const Fingerprint& made,
@@ -25,6 +29,7 @@ void write(CacheWriter& writer, std::uint32_t body, const Fingerprint& made,
     writer.add<std::uint8_t>(kSegments, body, made, store.segments);
     writer.add<std::uint16_t>(kSites, body, made, store.siteOf);
     writer.add<Rgb>(kValues, body, made, store.values);
+    if (!store.slopes.empty()) writer.add<ExitanceSlope>(kSlopes, body, made, store.slopes);
 }
 
 }  // namespace

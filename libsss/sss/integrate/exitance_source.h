@@ -12,8 +12,10 @@ class ExitanceSource {
 public:
     virtual ~ExitanceSource() = default;
     /// M at a place of a body, W m^-2, or an unbiased estimate of it, by the profile alone (not
-    /// scaled).
-    virtual Rgb exitance(const SurfaceHit& hit, Sampler& sampler, PathCounts& counts) const = 0;
+    /// scaled); where it is known how light leans as it leaves, what M would be if all of it left
+    /// as that which goes to `wo` (unit, world space).
+    virtual Rgb exitance(const SurfaceHit& hit, const Vec3& wo, Sampler& sampler,
+                         PathCounts& counts) const = 0;
 };
 
 }  // namespace sss

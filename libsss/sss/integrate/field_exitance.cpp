@@ -6,6 +6,8 @@ FieldExitance::FieldExitance(const IntegratorInput& input)
     : input_(input), indirect_(input.world, input.optics, nullptr) {
     for (const auto& optics : input.optics)
         irradiance_.emplace_back(input.world, indirect_, optics->eta);
+    for (const Body& body : input.world.bodies())
+        bodyFromWorld_.emplace_back(body.worldFromBody.inverse().rotation);
 }
 
 Rgb FieldExitance::inLimit(const SurfaceHit& hit, Sampler& sampler, PathCounts& counts) const {

@@ -17,10 +17,12 @@ public:
     explicit FieldExitance(const IntegratorInput& input);
     FieldExitance(const FieldExitance&) = delete;
     FieldExitance& operator=(const FieldExitance&) = delete;
-    Rgb exitance(const SurfaceHit& hit, Sampler& sampler, PathCounts& counts) const override {
+    Rgb exitance(const SurfaceHit& hit, const Vec3& wo, Sampler& sampler,
+                 PathCounts& counts) const override {
         const auto body = static_cast<std::size_t>(hit.body);
-        return input_.fields[body] ? input_.fields[body]->exitance(hit.bodyFace, hit.barycentrics)
-                                   : inLimit(hit, sampler, counts);
+        if (!input_.fields[body]) return inLimit(hit, sampler, counts);
+        return input_.fields[body]->exitance(hit.bodyFace, hit.barycentrics,
+                                             Vec3(bodyFromWorld_[body] * DVec3(wo)));
     }
 
 private:
@@ -29,6 +31,7 @@ private:
     IntegratorInput input_;
     PathTracer indirect_;                          ///< bodies in their diffuse limit, as in pass 1
     std::vector<IrradianceEstimator> irradiance_;  ///< by body
+    std::vector<DMat3> bodyFromWorld_;             ///< by body, for directions
 };
 
 }  // namespace sss

@@ -106,13 +106,13 @@ void PathTracer::putInFront(const Ray& ray, float distance, Sampler& sampler, Fi
     seen.surface += radianceOfLights(world_, ray, distance, {});
 }
 
-Rgb PathTracer::diffusion(const SurfaceHit& hit, const Bsdf& bsdf, Sampler& sampler,
+Rgb PathTracer::diffusion(const SurfaceHit& hit, const Bsdf& bsdf, const Vec3& wo, Sampler& sampler,
                           PathCounts& counts) const {
     if (hit.body < 0 || !exitance_) return Rgb(0);
     const BodyOptics& optics = *optics_[static_cast<std::size_t>(hit.body)];
     if (!optics.material.multipleScattering) return Rgb(0);
     ++counts.diffusionLookups;
-    return exitance_->exitance(hit, sampler, counts) *
+    return exitance_->exitance(hit, wo, sampler, counts) *
            optics.radiancePerExitance(bsdf.cosOutgoing());
 }
 
@@ -190,7 +190,7 @@ Rgb PathTracer::followed(Ray ray, ScatterOrigin origin, int bounces, Sampler& sa
         // Seen at second hand, all that comes from within is taken from the diffusion: the
         // profile's total has the light scattered once in it.
         if (hit.body >= 0)
-            sum += throughput * diffusion(hit, bsdf, sampler, counts) *
+            sum += throughput * diffusion(hit, bsdf, wo, sampler, counts) *
                    optics_[static_cast<std::size_t>(hit.body)]->indirectScale;
         if (!scatter(hit, bsdf, sampler, ray, origin, throughput)) return sum;
         if (depth + 1 >= kRouletteDepth) {
@@ -215,7 +215,8 @@ void PathTracer::shade(const FirstSurface& surface, const Ray& ray, Sampler& sam
     reflected = radianceOfEmitter(world_, ray, hit, {}) + surface.direct;
     if (hit.body >= 0 && exitance_) {
         const BodyOptics& optics = *optics_[static_cast<std::size_t>(hit.body)];
-        seen.diffusion = diffusion(hit, bsdf, sampler, counts) * optics.multipleScale;
+        seen.diffusion =
+            diffusion(hit, bsdf, -ray.direction, sampler, counts) * optics.multipleScale;
         if (optics.material.singleScattering) {
             Sampler side = sampler.branch();
             const auto all = static_cast<std::uint32_t>(world_.scene().film.samples);

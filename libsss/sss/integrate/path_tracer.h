@@ -74,7 +74,7 @@ public:
                     PathCounts& counts) const;
 
 private:
-    Rgb diffusion(const SurfaceHit& hit, const Bsdf& bsdf, Sampler& sampler,
+    Rgb diffusion(const SurfaceHit& hit, const Bsdf& bsdf, const Vec3& wo, Sampler& sampler,
                   PathCounts& counts) const;
     /// What is seen through a body.
     Rgb behind(const SurfaceHit& hit, const Vec3& wo, Sampler& sampler, PathCounts& counts) const;

@@ -217,11 +217,11 @@ void describeSolution(const ShapeExitance& shape, const Medium& medium, double s
 
 }  // namespace
 
-std::vector<Rgb> shapeCorrection(const World& world, int body, const SurfaceSamples& samples,
-                                 const EnteredBeams& beams,
-                                 std::span<const std::unique_ptr<BodyOptics>> optics,
-                                 const BodyCloud::View& cloud, Reporter& reporter,
-                                 BodyReport& report) {
+std::vector<SolvedExitance> shapeSolution(const World& world, int body,
+                                          const SurfaceSamples& samples, const EnteredBeams& beams,
+                                          std::span<const std::unique_ptr<BodyOptics>> optics,
+                                          const BodyCloud::View& cloud, Reporter& reporter,
+                                          BodyReport& report) {
     BodyOptics& own = *optics[static_cast<std::size_t>(body)];
     std::vector<Rgb> once;
     if (own.material.singleScattering) {
@@ -232,12 +232,12 @@ std::vector<Rgb> shapeCorrection(const World& world, int body, const SurfaceSamp
                        cloudOrder(samples));
     }
     ShapeExitance shape = solveShape(world, body, own, cloud, beams, once);
-    std::vector<Rgb> correction = std::move(shape.correction);
+    std::vector<SolvedExitance> solved = std::move(shape.solved);
     report.unscatteredShare = maxComponent(shape.unscattered);
     own.lookThroughIf(report.unscatteredShare, world.scene().quality.tolerance);
     describeSolution(shape, own.material.medium, cloud.spacingMm, report.name, reporter);
     report.shape = std::move(shape);
-    return correction;
+    return solved;
 }
 
 }  // namespace sss

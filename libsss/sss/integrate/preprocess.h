@@ -40,7 +40,7 @@ struct BodyReport {
     PathCounts counts;
     /// Of what enters, of the channel with most of it; none unless solved on the shape.
     std::optional<double> unscatteredShare;
-    std::optional<ShapeExitance> shape;  ///< without its correction; none if it comes from a cache
+    std::optional<ShapeExitance> shape;  ///< without what was solved; none if it comes from a cache
 };
 
 /// Spacing that the points of a body get: the scene's own, or from tolerance and mean free path.
@@ -69,12 +69,12 @@ BodyCloud buildCloud(const SurfaceSamples& samples, std::vector<Rgb> irradiance,
                      BodyReport& report);
 /// Beams of samples as the points of their cloud stand.
 EnteredBeams beamsInOrder(const SurfaceSamples& samples, EnteredBeams beams);
-/// Diffusion on the shape of a body that asks for it (BodyOptics::onShape): the correction of its
+/// Diffusion on the shape of a body that asks for it (BodyOptics::onShape), by point of its
 /// cloud, in the space of lightPoints(). `beams` by the cloud's points.
-std::vector<Rgb> shapeCorrection(const World& world, int body, const SurfaceSamples& samples,
-                                 const EnteredBeams& beams,
-                                 std::span<const std::unique_ptr<BodyOptics>> optics,
-                                 const BodyCloud::View& cloud, Reporter& reporter,
-                                 BodyReport& report);
+std::vector<SolvedExitance> shapeSolution(const World& world, int body,
+                                          const SurfaceSamples& samples, const EnteredBeams& beams,
+                                          std::span<const std::unique_ptr<BodyOptics>> optics,
+                                          const BodyCloud::View& cloud, Reporter& reporter,
+                                          BodyReport& report);
 
 }  // namespace sss

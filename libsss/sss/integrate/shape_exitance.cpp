@@ -2,6 +2,7 @@
 
 #include "sss/base/parallel.h"
 #include "sss/integrate/body_field.h"
+#include "sss/integrate/returning_light.h"
 
 #include <algorithm>
 
@@ -14,6 +15,9 @@ constexpr std::size_t kReceiversPerSum = 512;
 constexpr double kMostSpacingPerMfp = 4.0;
 // A solution that gives out more than this beyond what scattered is none.
 constexpr double kMostGain = 0.02;
+// What the body sends to itself need not be known better than this times the tolerance: it is a
+// tenth of its light.
+constexpr double kFirstTolerance = 5;
 
 // What the profile gives at the points themselves.
 std::vector<Rgb> profileExitance(const BodyField& field, const BodyCloud::View& cloud,
@@ -55,16 +59,32 @@ ShapeExitance solveShape(const World& world, int bodyIndex, const BodyOptics& op
     }
     const BodyField field(body, optics, cloud, tolerance);
     const std::vector<Rgb> flat = profileExitance(field, cloud, tolerance);
-    const BeamSources light = placeBeamSources(world, bodyIndex, cloud, beams, medium);
+    BeamSources light = placeBeamSources(world, bodyIndex, cloud, beams, medium);
     const ShapeSolver solver(cloud.cloud, cloud.nodes, medium, cloud.spacingMm,
                              body.mesh.bounds().diagonal() * 1.01, tolerance);
     std::vector<DRgb> fluence(flat.size());
     for (std::size_t i = 0; i < flat.size(); ++i) fluence[i] = DRgb(flat[i]) * medium.impedance;
 
-    result.report = solver.solve(light.sources, fluence);
     const auto exitanceAt = [&](std::size_t i, int c) {
         return medium.scatters[c] ? fluence[i][c] / medium.impedance[c] : 0.0;
     };
+    const ReturningLight back(world, bodyIndex, optics, cloud);
+    result.report = solver.solve(light.sources, fluence, back.isNone() ? 1.0 : kFirstTolerance);
+    if (!back.isNone()) {
+        // Once more, now that it is known what the body sends to itself.
+        std::vector<Rgb> exitance = flat;
+        for (std::size_t i = 0; i < flat.size(); ++i)
+            for (int c = 0; c < 3; ++c)
+                if (medium.scatters[c]) exitance[i][c] = static_cast<float>(exitanceAt(i, c));
+        const std::vector<Rgb> irradiance = back.irradiance(exitance);
+        BodyCloud::View lit = cloud;
+        lit.cloud.irradiance = irradiance;
+        light = placeBeamSources(world, bodyIndex, lit, back.beams(beams, irradiance), medium);
+        const ShapeReport first = result.report;
+        result.report = solver.solve(light.sources, fluence);
+        result.report.add(first);
+    }
+    result.report.layers.add(solver.fillCounts());
     DRgb all{0}, single{0};
     for (std::size_t i = 0; i < flat.size(); ++i) {
         const double area = cloud.cloud.points[i].areaMm2;
@@ -87,13 +107,16 @@ ShapeExitance solveShape(const World& world, int bodyIndex, const BodyOptics& op
         result.single[c] = single[c] / light.entered[c];
         result.absorbed[c] = 1 - (all[c] + light.unscattered[c]) / light.entered[c];
     }
-    result.correction.assign(flat.size(), Rgb(0));
+    result.solved.resize(flat.size());
     for (std::size_t i = 0; i < flat.size(); ++i)
         for (int c = 0; c < 3; ++c) {
+            SolvedExitance& solved = result.solved[i];
+            solved.exitance[c] = flat[i][c];
             if (keepsProfile[static_cast<std::size_t>(c)]) continue;
             const double scatteredOnce = once.empty() ? 0.0 : double{once[i][c]};
-            result.correction[i][c] =
+            solved.correction[c] =
                 static_cast<float>(exitanceAt(i, c) - scatteredOnce - double{flat[i][c]});
+            solved.exitance[c] = static_cast<float>(exitanceAt(i, c));
         }
     return result;
 }

@@ -1,5 +1,6 @@
 #pragma once
 #include "sss/base/reporter.h"
+#include "sss/cloud/solved_exitance.h"
 #include "sss/integrate/beam_sources.h"
 #include "sss/integrate/body_optics.h"
 #include "sss/shape/shape_solver.h"
@@ -11,7 +12,7 @@ namespace sss {
 
 /// Diffusion on a body's own shape, as what it changes about the exitance that the profile gives.
 struct ShapeExitance {
-    std::vector<Rgb> correction;  ///< by point, W m^-2
+    std::vector<SolvedExitance> solved;  ///< by point
     ShapeReport report;
     /// Channels that keep the profile's answer: their points are too far apart to solve for, or
     /// what was solved does not keep the light. Those have no shares below.

@@ -31,6 +31,12 @@ KernelTable greenTable(const DRgb& screening, double reachMm, double cellRadiusM
 
 }  // namespace
 
+void ShapeReport::add(const ShapeReport& earlier) {
+    solve.iterations += earlier.solve.iterations;
+    layers.add(earlier.layers);
+    sources.add(earlier.sources);
+}
+
 ShapeSolver::ShapeSolver(const CloudView& cloud, std::span<const OctreeNode> nodes,
                          const DiffusionConstants& medium, double spacingMm, double reachMm,
                          double tolerance)
@@ -57,7 +63,7 @@ void ShapeSolver::measureFill() {
 }
 
 // What the sources alone would make, in an endless medium.
-std::vector<DRgb> ShapeSolver::direct(std::span<const VolumeSource> sources,
+std::vector<DRgb> ShapeSolver::direct(std::span<const VolumeSource> sources, double tolerance,
                                       SumCounts& counts) const {
     const std::size_t n = cloud_.size();
     const KernelTable near =
@@ -71,7 +77,7 @@ std::vector<DRgb> ShapeSolver::direct(std::span<const VolumeSource> sources,
         std::vector<SumCounts> parts((n + kReceiversPerSum - 1) / kReceiversPerSum);
         parallelFor(n, kReceiversPerSum, [&](std::size_t begin, std::size_t end) {
             DiffusionSum::Scratch scratch;
-            sum.evaluate(std::span(places).subspan(begin, end - begin), kSourceShare * tolerance_,
+            sum.evaluate(std::span(places).subspan(begin, end - begin), kSourceShare * tolerance,
                          std::span(values).subspan(begin, end - begin), scratch,
                          parts[begin / kReceiversPerSum]);
         });
@@ -81,13 +87,13 @@ std::vector<DRgb> ShapeSolver::direct(std::span<const VolumeSource> sources,
     return fluence;
 }
 
-ShapeReport ShapeSolver::solve(std::span<const VolumeSource> sources,
-                               std::span<DRgb> fluence) const {
+ShapeReport ShapeSolver::solve(std::span<const VolumeSource> sources, std::span<DRgb> fluence,
+                               double coarser) const {
     ShapeReport report;
-    report.layers = fillCounts_;
+    const double tolerance = tolerance_ * coarser;
     const std::size_t n = cloud_.size();
     const KernelTable table = greenTable(medium_.screening, reachMm_, spacingMm_ / std::sqrt(kPi));
-    std::vector<DRgb> right = direct(sources, report.sources);
+    std::vector<DRgb> right = direct(sources, tolerance, report.sources);
     // Unknowns and equations in units of the local fluence.
     DRgb most{0};
     for (const DRgb& v : fluence) most = glm::max(most, v);
@@ -116,15 +122,15 @@ ShapeReport ShapeSolver::solve(std::span<const VolumeSource> sources,
             squares += in[i] * in[i];
         }
         const DRgb size = glm::sqrt(squares / static_cast<double>(n));
-        const DRgb care = glm::min(tolerance_ * kLayerShare / glm::max(weight, DRgb(1e-6)),
-                                   DRgb(std::max(kCrudest, tolerance_ * kLayerShare)));
+        const DRgb care = glm::min(tolerance * kLayerShare / glm::max(weight, DRgb(1e-6)),
+                                   DRgb(std::max(kCrudest, tolerance * kLayerShare)));
         for (std::size_t i = 0; i < n; ++i) allowed[i] = Rgb(size * scale[i] * care);
         tree.setFluence(absolute, perLength);
         layers.atPoints(allowed, out, report.layers);
         for (std::size_t i = 0; i < n; ++i)
             out[i] = out[i] / scale[i] + (static_cast<double>(fill_[i]) + own[i]) * in[i];
     };
-    report.solve = gmres(apply, right, fluence, kResidualShare * tolerance_, kMostIterations);
+    report.solve = gmres(apply, right, fluence, kResidualShare * tolerance, kMostIterations);
     DRgb below{0}, total{0};
     for (std::size_t i = 0; i < n; ++i) {
         fluence[i] *= scale[i];

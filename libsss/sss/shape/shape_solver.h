@@ -15,8 +15,11 @@ struct ShapeReport {
     GmresReport solve;
     /// Share of the fluence that came out below 0, which no fluence is: it was set to 0.
     DRgb negative{0};
-    LayerCounts layers;  ///< with the one that measures the fill
+    LayerCounts layers;
     SumCounts sources;
+
+    /// What was spent on an earlier solution, from which this one went on.
+    void add(const ShapeReport& earlier);
 };
 
 /// The diffusion equation on a body's own shape, by boundary elements over its point cloud: one
@@ -35,14 +38,19 @@ public:
                 double tolerance);
 
     /// Fluence at the points, W m^-2, from the guess that it holds: the right order of magnitude
-    /// everywhere sets what may be missed where, and it is where the iteration starts.
-    ShapeReport solve(std::span<const VolumeSource> sources, std::span<DRgb> fluence) const;
+    /// everywhere sets what may be missed where, and it is where the iteration starts. `coarser`:
+    /// times the tolerance.
+    ShapeReport solve(std::span<const VolumeSource> sources, std::span<DRgb> fluence,
+                      double coarser = 1) const;
     /// Solid angle over 4 pi that the body fills as seen from each point: 1/2 where it is flat.
     std::span<const float> fill() const { return fill_; }
+    /// What was spent on that.
+    const LayerCounts& fillCounts() const { return fillCounts_; }
 
 private:
     void measureFill();
-    std::vector<DRgb> direct(std::span<const VolumeSource> sources, SumCounts& counts) const;
+    std::vector<DRgb> direct(std::span<const VolumeSource> sources, double tolerance,
+                             SumCounts& counts) const;
 
     CloudView cloud_;
     std::span<const OctreeNode> nodes_;

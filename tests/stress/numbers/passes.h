@@ -22,8 +22,8 @@ public:
             BodyCloud& cloud =
                 clouds_.emplace_back(buildCloud(samples, std::move(light.irradiance), report));
             if (optics_[index]->onShape)
-                cloud.correction = shapeCorrection(world_, b, samples, light.beams, optics_,
-                                                   cloud.view(), silent_, report);
+                cloud.solved = shapeSolution(world_, b, samples, light.beams, optics_, cloud.view(),
+                                             silent_, report);
         }
     }
     const World& world() const { return world_; }

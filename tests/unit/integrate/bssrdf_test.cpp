@@ -62,8 +62,9 @@ void expectTheCachesExitance(const SceneMaker& maker) {
         const Vec2 barycentrics(0.3f, 0.4f);
         const SurfaceHit hit = world.surfaceOf(0, face, barycentrics);
         PathCounts counts;
-        const Estimate e = testing::batchEstimate(
-            31, 256, [&](Sampler& sampler) { return DRgb(source.exitance(hit, sampler, counts)); });
+        const Estimate e = testing::batchEstimate(31, 256, [&](Sampler& sampler) {
+            return DRgb(source.exitance(hit, hit.geometricNormal, sampler, counts));
+        });
         const DRgb cached(field.exitance(face, barycentrics));
         for (int c = 0; c < 3; ++c) {
             const double tolerance = 0.01 * cached[c] + 0.002 * static_cast<double>(brightest[c]);
@@ -112,7 +113,7 @@ void expectTheCachesMean(SceneMaker maker, double spacingMm) {
         PathCounts counts;
         std::size_t next = 0;
         const Estimate e = testing::batchEstimate(31, 2 * kPlaces, [&](Sampler& sampler) {
-            return DRgb(source.exitance(places[next++ % kPlaces], sampler, counts));
+            return DRgb(source.exitance(places[next++ % kPlaces], Vec3(0, 0, 1), sampler, counts));
         });
         for (int c = 0; c < 3; ++c) {
             EXPECT_NEAR(e.mean[c], cached[c], 3.5 * e.error[c] + 0.005 * cached[c])

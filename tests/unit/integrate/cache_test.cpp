@@ -355,7 +355,7 @@ TEST(CloudCache, SectionsThatDoNotFitTheirPointsAreRefused) {
     writer.commit();
     const CacheFile file = CacheFile::open(folder / "bad.ssc");
     const std::pair<std::function<void()>, const char*> readers[] = {
-        {[&] { correctionOf(file, 1, 3); }, "the correction of body 1 does not fit its points"},
+        {[&] { solvedOf(file, 1, 3); }, "the solution of body 1 does not fit its points"},
         {[&] { beamsOf(file, 3); }, "its beams do not fit its points"},
         {[&] { samplesOf(file, 12); }, "its cells do not fit its points"}};
     for (const auto& [read, words] : readers) {

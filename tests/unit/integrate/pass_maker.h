@@ -35,8 +35,8 @@ private:
             IrradianceResult light = lightPoints(world, b, samples, optics, reporter, report);
             clouds.push_back(buildCloud(samples, std::move(light.irradiance), report));
             if (optics[static_cast<std::size_t>(b)]->onShape)
-                clouds.back().correction = shapeCorrection(world, b, samples, light.beams, optics,
-                                                           clouds.back().view(), reporter, report);
+                clouds.back().solved = shapeSolution(world, b, samples, light.beams, optics,
+                                                     clouds.back().view(), reporter, report);
         }
     }
 };
