@@ -14,14 +14,19 @@ double segmentLength(const Body& body, const BodyOptics& optics) {
     return std::isfinite(mfp) ? std::min(kSegmentPerMfp * mfp, size) : size;
 }
 
-// How far behind its place on the surface the light comes from that is seen there, along the
-// surface, over the sine of the angle outside.
+// Of the mean free path, how far behind a place the light comes from that is seen there: 1 where
+// the fluence is the same below the surface as at it, (2 mu + b) / (mu + b) = 1.35 (b in mean free
+// paths) where it rises as it does below a surface without light of its own. Measured on sunlit
+// balls of 2.5 to 24 mean free paths, eta 1.3 and 1.5, all sides: 1.1 to 1.2.
+constexpr double kLean = 1.15;
+
+// How far behind along the surface, over the sine of the angle outside.
 Rgb leanLength(const Medium& medium) {
     Rgb length(0);
     for (int c = 0; c < 3; ++c) {
         const ChannelMedium channel = medium.channel(c);
         if (channel.sigmaSPrime() > 0)
-            length[c] = static_cast<float>(channel.meanFreePathMm() / medium.eta);
+            length[c] = static_cast<float>(kLean * channel.meanFreePathMm() / medium.eta);
     }
     return length;
 }

@@ -54,7 +54,7 @@ std::string passBy(const std::filesystem::path& folder, const std::shared_ptr<co
         append(bytes, body.cloud.cloud.points);
         append(bytes, body.cloud.cloud.irradiance);
         append(bytes, body.cloud.nodes);
-        append(bytes, body.cloud.correction);
+        append(bytes, body.cloud.solved);
     }
     return bytes;
 }

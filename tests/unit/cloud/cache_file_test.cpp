@@ -192,10 +192,10 @@ TEST_F(CacheFileTest, OtherFilesAreNotCaches) {
 
 TEST_F(CacheFileTest, OtherVersionsAndByteOrders) {
     const auto message = [&](auto change) { return refusal(damaged, forged(whole, change)); };
-    EXPECT_TRUE(contains(message([](CacheHeader& h, auto&) { h.version = 4; }),
-                         "format 4 is newer than this program's 3"));
+    EXPECT_TRUE(contains(message([](CacheHeader& h, auto&) { h.version = 5; }),
+                         "format 5 is newer than this program's 4"));
     EXPECT_TRUE(contains(message([](CacheHeader& h, auto&) { h.version = 0; }),
-                         "format 0 is older than this program's 3"));
+                         "format 0 is older than this program's 4"));
     EXPECT_TRUE(
         contains(message([](CacheHeader& h, auto&) { h.endianMark = 0x04030201; }), "byte order"));
 }

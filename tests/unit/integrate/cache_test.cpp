@@ -350,7 +350,7 @@ TEST(CloudCache, SectionsThatDoNotFitTheirPointsAreRefused) {
     writer.add<CellPiece>("pieces", 0, {}, std::vector<CellPiece>(2));
     writer.add<Vec2>("corners", 0, {}, std::vector<Vec2>(6));
     writer.add<std::uint32_t>("first", 0, {}, std::vector<std::uint32_t>{0, 1, 2});
-    writer.add<Rgb>("shape", 1, {}, std::vector<Rgb>(2));
+    writer.add<SolvedExitance>("shape", 1, {}, std::vector<SolvedExitance>(2));
     writer.add<std::uint32_t>("beams", 0, {}, std::vector<std::uint32_t>(2));
     writer.commit();
     const CacheFile file = CacheFile::open(folder / "bad.ssc");

@@ -80,6 +80,35 @@ bool sameBytes(const std::vector<Rgb>& a, const std::vector<Rgb>& b) {
     return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(Rgb)) == 0;
 }
 
+// How light leans that leaves a body whose diffusion was solved on its shape is kept as well.
+TEST(ExitanceCache, KeepsHowLightLeans) {
+    const TemporaryFolder folder;
+    SceneMaker maker;
+    TranslucentMaterial material = measured("Marble");
+    material.onShape = true;
+    material.singleScattering = false;
+    maker.object(BoxShape{DVec3(3)}, maker.material(material));
+    maker.light(DirectionalLight{{-1, -1, -1}, Rgb(2)});
+    maker.scene.quality.spacingMm = 0.7;
+    maker.scene.quality.irradianceSamples = 4;
+    maker.scene.quality.tolerance = 0.05;
+    const auto look = [](const Frame& frame) {
+        std::vector<Rgb> seen;
+        for (FaceIndex f = 0; f < 12; ++f)
+            for (const Vec3& towards : {Vec3(0.8f, 0, 0.6f), Vec3(-0.6f, 0.8f, 0)})
+                seen.push_back(frame.fields[0]->exitance(f, {0.3f, 0.2f}, towards));
+        return seen;
+    };
+    Frame first(maker.scene, folder / "c.ssc");
+    const std::vector<Rgb> expected = look(first);
+    first.save();
+    Frame second(maker.scene, folder / "c.ssc");
+    EXPECT_EQ(second.load(), first.counts().groups);
+    EXPECT_TRUE(sameBytes(look(second), expected));
+    EXPECT_EQ(second.counts().groups, 0u);
+    EXPECT_NE(expected[0], expected[1]);
+}
+
 std::string bytesOf(const std::filesystem::path& file) {
     std::ifstream in(file, std::ios::binary);
     return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
@@ -246,6 +275,8 @@ TEST(ExitanceStore, HandsOnWholeGroupsOnly) {
     EXPECT_TRUE(isRefused([](ExitanceStore& s) { s.values.pop_back(); }));
     EXPECT_TRUE(isRefused([](ExitanceStore& s) { s.values.emplace_back(1.0f); }));
     EXPECT_TRUE(isRefused([](ExitanceStore& s) { s.values[0].x = NAN; }));
+    EXPECT_TRUE(isRefused([](ExitanceStore& s) { s.slopes.resize(1); }));
+    EXPECT_TRUE(isRefused([](ExitanceStore& s) { s.slopes.resize(s.values.size()); }));
     EXPECT_TRUE(isRefused([](ExitanceStore& s) { s.siteOf[2] = 60000; }));
     EXPECT_TRUE(isRefused([](ExitanceStore& s) { s.segments[0] = 77; }));
     EXPECT_TRUE(isRefused([](ExitanceStore& s) { s.entries[0].patches += 1; }));
