@@ -333,7 +333,7 @@ def ten_million_points(folder):
     """A mesh of 5 x 10^6 triangles with 10^7 points on it, through both programs."""
     row = Row("memory", "10^7 points on 5 x 10^6 triangles: GiB of the larger program", MOST_BYTES / 2 ** 30)
     (folder / "mesh.obj").write_text(grid(1120))
-    (folder / "scene.json").write_text(scene([mesh_object("mesh.obj", 1)], spacing=0.0014))
+    (folder / "scene.json").write_text(scene([mesh_object("mesh.obj", 1)], spacing=0.0024))
     for arguments in (("sss-preprocess", "scene.json", "-o", "a.ssc"),
                       ("sss-render", "scene.json", "--cache", "a.ssc", "-o", "a.exr", "--no-keep")):
         code, words, peak = run_measured(folder, *arguments)
