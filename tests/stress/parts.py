@@ -25,7 +25,7 @@ def failed_row(subject, name, why):
 
 def number_rows(subject, full, out):
     """The rows of one subject of sss-stress, which measures inside the library."""
-    file = out / "sss-stress.json"
+    file = out / f"sss-stress-{subject}.json"
     file.unlink(missing_ok=True)
     done = subprocess.run([str(BIN / "sss-stress"), "--full" if full else "--quick", "--only", subject,
                            "--json", str(file)], cwd=out, stdin=subprocess.DEVNULL, check=False)
