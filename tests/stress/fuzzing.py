@@ -21,6 +21,8 @@ LONGEST = {"cache": 32768, "exitance": 32768}
 EXECUTIONS = 10 ** 7
 # A turn of one reader; what it has found interesting is where its next turn starts.
 SECONDS_A_TURN = 60
+# By the wall: at the lowest priority on a busy machine a second may take a minute.
+HANGS_AFTER_SECONDS = 120
 MOST_SECONDS = 3 * 3600
 
 
@@ -30,7 +32,7 @@ def fuzz(target, bin_folder, out, seconds):
     kept.mkdir(parents=True, exist_ok=True)
     found.mkdir(parents=True, exist_ok=True)
     command = ["nice", "-n", "19", str(bin_folder / f"sss-fuzz-{target}"),
-               f"-max_total_time={seconds}", "-timeout=10", "-rss_limit_mb=2048",
+               f"-max_total_time={seconds}", f"-timeout={HANGS_AFTER_SECONDS}", "-rss_limit_mb=2048",
                "-malloc_limit_mb=600", f"-max_len={LONGEST.get(target, 4096)}",
                "-print_final_stats=1", f"-artifact_prefix={found}/"]
     if target == "scene" or target in MESHES:
