@@ -43,6 +43,7 @@ Rgb PointInterpolator::fit(const Vec3& place, std::span<const std::uint32_t> nea
     DMat3 moments(0.0);
     DRgb ones{0}, us{0}, vs{0};
     DRgb allOnes{0}, allUs{0}, allVs{0};  // of the exitance
+    DRgb depths{0};
     Rgb lo = values_[near.front()].correction, hi = lo;
     for (const std::uint32_t i : near) {
         const float facing = glm::dot(normal, decodeUnitVector(points_[i].normal));
@@ -60,6 +61,7 @@ Rgb PointInterpolator::fit(const Vec3& place, std::span<const std::uint32_t> nea
         allOnes += w * all;
         allUs += w * basis.y * all;
         allVs += w * basis.z * all;
+        depths += w * DRgb(values_[i].depth);
         lo = glm::min(lo, values_[i].correction);
         hi = glm::max(hi, values_[i].correction);
     }
@@ -75,8 +77,9 @@ Rgb PointInterpolator::fit(const Vec3& place, std::span<const std::uint32_t> nea
         };
         value = solved(0, ones, us, vs);
         if (slope != nullptr) {
-            const Rgb u = leanMm_ * solved(1, allOnes, allUs, allVs),
-                      v = leanMm_ * solved(2, allOnes, allUs, allVs);
+            const Rgb reach = leanMm_ * Rgb(depths / total);
+            const Rgb u = reach * solved(1, allOnes, allUs, allVs),
+                      v = reach * solved(2, allOnes, allUs, allVs);
             const Vec3 alongU = frame.toWorld({1, 0, 0}), alongV = frame.toWorld({0, 1, 0});
             *slope = {-(u * alongU.x + v * alongV.x), -(u * alongU.y + v * alongV.y),
                       -(u * alongU.z + v * alongV.z)};

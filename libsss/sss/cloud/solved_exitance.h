@@ -9,6 +9,9 @@ struct SolvedExitance {
     /// All that has scattered, once and more often: how it changes along the surface says which way
     /// light leans as it leaves.
     Rgb exitance{0.0f};
+    /// From how deep on the mean the light comes that leaves, in mean free paths: 1, or what the
+    /// body is thick enough for.
+    Rgb depth{1.0f};
 };
 
 /// How far light leans that leaves: what its radiance gains, in units of the Lambertian radiance of

@@ -3,6 +3,7 @@
 #include "sss/base/parallel.h"
 #include "sss/integrate/body_field.h"
 #include "sss/integrate/returning_light.h"
+#include "sss/medium/single_scatter.h"
 
 #include <algorithm>
 
@@ -35,6 +36,40 @@ std::vector<Rgb> profileExitance(const BodyField& field, const BodyCloud::View& 
     return exitance;
 }
 
+// SolvedExitance::depth where the body is as thick as this along its normal, in mean free paths:
+// mean of the exponential up to there.
+double meanDepth(double thickness) {
+    return thickness > 1e-3 ? 1 - thickness / std::expm1(thickness) : 0.5 * thickness;
+}
+
+// By point, and for what never ends at 1.
+void measureDepths(const World& world, int body, std::span<const SurfacePoint> points,
+                   const DiffusionConstants& medium, std::span<SolvedExitance> solved) {
+    parallelFor(points.size(), kReceiversPerSum, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            const SurfaceHit start =
+                world.surfaceOf(body, points[i].face, points[i].barycentrics());
+            Ray ray;
+            ray.origin = world.leave(start, -start.geometricNormal);
+            ray.direction = -start.geometricNormal;
+            Hit found;
+            if (!world.rays().intersect(ray, found, bodyMask(body))) continue;
+            for (int c = 0; c < 3; ++c)
+                solved[i].depth[c] =
+                    static_cast<float>(meanDepth(double{found.t} * medium.extinction[c]));
+        }
+    });
+}
+
+// Exitance by one scattering of diffuse light, of 1 that enters.
+Rgb singleShare(const Medium& medium) {
+    Rgb share(0);
+    for (int c = 0; c < 3; ++c)
+        share[c] =
+            static_cast<float>(singleScatterAlbedo(medium.channel(c), Illumination::Diffuse));
+    return share;
+}
+
 FresnelMoments momentsOf(const TranslucentMaterial& material) {
     return material.profileOptions.boundary == BoundaryModel::Exact
                ? exactFresnelMoments(material.medium.eta)
@@ -45,12 +80,13 @@ FresnelMoments momentsOf(const TranslucentMaterial& material) {
 
 ShapeExitance solveShape(const World& world, int bodyIndex, const BodyOptics& optics,
                          const BodyCloud::View& cloud, const EnteredBeams& beams,
-                         std::span<const Rgb> once) {
+                         std::span<const Rgb> onceOfPassOne) {
     const Body& body = world.bodies()[static_cast<std::size_t>(bodyIndex)];
     const double tolerance = world.scene().quality.tolerance;
     DiffusionConstants medium =
         diffusionConstants(optics.material.medium, momentsOf(optics.material));
     ShapeExitance result;
+    std::vector<Rgb> once(onceOfPassOne.begin(), onceOfPassOne.end());
     for (int c = 0; c < 3; ++c) {
         if (!medium.scatters[c] || cloud.spacingMm * medium.extinction[c] <= kMostSpacingPerMfp)
             continue;
@@ -79,6 +115,10 @@ ShapeExitance solveShape(const World& world, int bodyIndex, const BodyOptics& op
         const std::vector<Rgb> irradiance = back.irradiance(exitance);
         BodyCloud::View lit = cloud;
         lit.cloud.irradiance = irradiance;
+        // What single scattering shows of it.
+        const Rgb share = singleShare(optics.material.medium);
+        for (std::size_t i = 0; i < once.size(); ++i)
+            once[i] += share * (irradiance[i] - cloud.cloud.irradiance[i]);
         light = placeBeamSources(world, bodyIndex, lit, back.beams(beams, irradiance), medium);
         const ShapeReport first = result.report;
         result.report = solver.solve(light.sources, fluence);
@@ -108,6 +148,7 @@ ShapeExitance solveShape(const World& world, int bodyIndex, const BodyOptics& op
         result.absorbed[c] = 1 - (all[c] + light.unscattered[c]) / light.entered[c];
     }
     result.solved.resize(flat.size());
+    measureDepths(world, bodyIndex, cloud.cloud.points, medium, result.solved);
     for (std::size_t i = 0; i < flat.size(); ++i)
         for (int c = 0; c < 3; ++c) {
             SolvedExitance& solved = result.solved[i];

@@ -63,6 +63,45 @@ TEST(Shape, WhiteFurnace) {
         }
 }
 
+// Two balls of one body that see each other, where they are closest: what goes from one to the
+// other is counted once, by single scattering too.
+TEST(Shape, WhiteFurnaceOfABodyThatSeesItself) {
+    const double radius = 2;
+    SceneMaker maker = ballUnderSky(onShape(grey(0, 1, 1.4)), radius);
+    maker.scene.objects.front().group = "pair";
+    maker.object(SphereShape{radius}, 0, testing::moved({2.1 * radius, 0, 0})).group = "pair";
+    maker.scene.quality.bounces = 6;
+    maker.scene.camera.lookAt = {0.6 * radius, 0, 0};
+    maker.scene.camera.fovDegrees = 1;
+    const DRgb seen = meanOf(testing::picture(maker.scene));
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(seen[c], 1, 0.015);
+}
+
+// From a plate of one mean free path light comes that has scattered at most so deep; from a block
+// of ten, 1 deep on the mean.
+TEST(Shape, DepthsEndWhereTheBodyDoes) {
+    for (const auto& [thickness, depth] :
+         {std::pair{1.0, 1 - 1 / (std::exp(1.0) - 1)}, std::pair{10.0, 1.0}}) {
+        SceneMaker maker;
+        TranslucentMaterial material = onShape(grey(0.01, 0.99, 1.3));
+        material.singleScattering = false;
+        maker.object(BoxShape{{12, 12, thickness}}, maker.material(material));
+        maker.light(EnvironmentLight{Rgb(1), {}, 0});
+        maker.scene.quality.spacingMm = 1;
+        const World world = maker.world();
+        const auto optics = makeBodyOptics(world);
+        const MadeClouds made(world, optics);
+        const BodyCloud& cloud = made.clouds[0];
+        int looked = 0;
+        for (std::size_t i = 0; i < cloud.points.size(); ++i) {
+            if (std::abs(decodeUnitVector(cloud.points[i].normal).z) < 0.9f) continue;
+            ++looked;
+            ASSERT_NEAR(cloud.solved[i].depth.x, depth, 1e-3) << thickness;
+        }
+        EXPECT_GT(looked, 100);
+    }
+}
+
 // What leaves a ball in sunlight leans away from where it entered. Radiant intensity in units of
 // its mean over all directions, at two cosines of the angle to the sun: by 1.6e7 paths of a program
 // of its own that knows balls only, mean over +-0.05 of the cosine, +-0.15 %. Leaving as from a
