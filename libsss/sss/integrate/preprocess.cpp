@@ -1,6 +1,7 @@
 #include "sss/integrate/preprocess.h"
 
 #include "sss/base/error.h"
+#include "sss/base/stopwatch.h"
 #include "sss/cloud/surface_sampler.h"
 #include "sss/integrate/integrator_table.h"
 #include "sss/integrate/interreflection.h"
@@ -224,6 +225,7 @@ std::vector<SolvedExitance> shapeSolution(const World& world, int body,
                                           BodyReport& report) {
     BodyOptics& own = *optics[static_cast<std::size_t>(body)];
     std::vector<Rgb> once;
+    const Stopwatch watch;
     if (own.material.singleScattering) {
         const PathTracer tracer(world, optics, nullptr);
         once = inOrder(singleExitance(world, body, samples, tracer,
@@ -231,7 +233,9 @@ std::vector<SolvedExitance> shapeSolution(const World& world, int body,
                                       report.counts),
                        cloudOrder(samples));
     }
-    ShapeExitance shape = solveShape(world, body, own, cloud, beams, once);
+    const double singleSeconds = watch.seconds();
+    ShapeExitance shape = solveShape(world, body, own, cloud, beams, once, reporter);
+    shape.singleSeconds = singleSeconds;
     std::vector<SolvedExitance> solved = std::move(shape.solved);
     report.unscatteredShare = maxComponent(shape.unscattered);
     own.lookThroughIf(report.unscatteredShare, world.scene().quality.tolerance);

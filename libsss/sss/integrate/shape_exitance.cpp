@@ -80,7 +80,7 @@ FresnelMoments momentsOf(const TranslucentMaterial& material) {
 
 ShapeExitance solveShape(const World& world, int bodyIndex, const BodyOptics& optics,
                          const BodyCloud::View& cloud, const EnteredBeams& beams,
-                         std::span<const Rgb> onceOfPassOne) {
+                         std::span<const Rgb> onceOfPassOne, Reporter& reporter) {
     const Body& body = world.bodies()[static_cast<std::size_t>(bodyIndex)];
     const double tolerance = world.scene().quality.tolerance;
     DiffusionConstants medium =
@@ -105,7 +105,13 @@ ShapeExitance solveShape(const World& world, int bodyIndex, const BodyOptics& op
         return medium.scatters[c] ? fluence[i][c] / medium.impedance[c] : 0.0;
     };
     const ReturningLight back(world, bodyIndex, optics, cloud);
-    result.report = solver.solve(light.sources, fluence, back.isNone() ? 1.0 : kFirstTolerance);
+    const int solutions = back.isNone() ? 1 : 2;
+    Progress progress(reporter, "shape",
+                      static_cast<std::uint64_t>(
+                          solutions * (ShapeSolver::kSourceSums + ShapeSolver::kLayerSums)));
+    const auto onSum = [&] { progress.advance(); };
+    result.report =
+        solver.solve(light.sources, fluence, back.isNone() ? 1.0 : kFirstTolerance, onSum);
     if (!back.isNone()) {
         // Once more, now that it is known what the body sends to itself.
         std::vector<Rgb> exitance = flat;
@@ -121,7 +127,7 @@ ShapeExitance solveShape(const World& world, int bodyIndex, const BodyOptics& op
             once[i] += share * (irradiance[i] - cloud.cloud.irradiance[i]);
         light = placeBeamSources(world, bodyIndex, lit, back.beams(beams, irradiance), medium);
         const ShapeReport first = result.report;
-        result.report = solver.solve(light.sources, fluence);
+        result.report = solver.solve(light.sources, fluence, 1, onSum);
         result.report.add(first);
     }
     result.report.layers.add(solver.fillCounts());

@@ -19,6 +19,8 @@ struct ShapeExitance {
     std::array<bool, 3> isTooCoarse{}, isUnsound{};
     /// Of what entered: how much more leaves than scattered, at most; 0 where it is less.
     double gain = 0;
+    /// Of the clock on the wall: what scatters once, before all else.
+    double singleSeconds = 0;
     /// Shares of the light that entered: multiple and single scattering that leaves, straight
     /// through, and absorbed (what is left).
     DRgb leaves{0}, single{0}, unscattered{0}, absorbed{0};
@@ -29,6 +31,6 @@ struct ShapeExitance {
 /// solved. `once`: the exitance of single scattering by point, or empty.
 ShapeExitance solveShape(const World& world, int body, const BodyOptics& optics,
                          const BodyCloud::View& cloud, const EnteredBeams& beams,
-                         std::span<const Rgb> once);
+                         std::span<const Rgb> once, Reporter& reporter);
 
 }  // namespace sss

@@ -1,6 +1,7 @@
 #include "sss/shape/shape_solver.h"
 
 #include "sss/base/parallel.h"
+#include "sss/base/stopwatch.h"
 #include "sss/shape/screened_green.h"
 
 #include <algorithm>
@@ -35,6 +36,8 @@ void ShapeReport::add(const ShapeReport& earlier) {
     solve.iterations += earlier.solve.iterations;
     layers.add(earlier.layers);
     sources.add(earlier.sources);
+    sourceSeconds += earlier.sourceSeconds;
+    solveSeconds += earlier.solveSeconds;
 }
 
 ShapeSolver::ShapeSolver(const CloudView& cloud, std::span<const OctreeNode> nodes,
@@ -88,12 +91,16 @@ std::vector<DRgb> ShapeSolver::direct(std::span<const VolumeSource> sources, dou
 }
 
 ShapeReport ShapeSolver::solve(std::span<const VolumeSource> sources, std::span<DRgb> fluence,
-                               double coarser) const {
+                               double coarser, const std::function<void()>& onSum) const {
+    Stopwatch watch;
     ShapeReport report;
     const double tolerance = tolerance_ * coarser;
     const std::size_t n = cloud_.size();
     const KernelTable table = greenTable(medium_.screening, reachMm_, spacingMm_ / std::sqrt(kPi));
     std::vector<DRgb> right = direct(sources, tolerance, report.sources);
+    report.sourceSeconds = watch.seconds();
+    watch.restart();
+    for (int k = 0; k < kSourceSums && onSum; ++k) onSum();
     // Unknowns and equations in units of the local fluence.
     DRgb most{0};
     for (const DRgb& v : fluence) most = glm::max(most, v);
@@ -127,6 +134,7 @@ ShapeReport ShapeSolver::solve(std::span<const VolumeSource> sources, std::span<
         for (std::size_t i = 0; i < n; ++i) allowed[i] = Rgb(size * scale[i] * care);
         tree.setFluence(absolute, perLength);
         layers.atPoints(allowed, out, report.layers);
+        if (onSum) onSum();
         for (std::size_t i = 0; i < n; ++i)
             out[i] = out[i] / scale[i] + (static_cast<double>(fill_[i]) + own[i]) * in[i];
     };
@@ -139,6 +147,7 @@ ShapeReport ShapeSolver::solve(std::span<const VolumeSource> sources, std::span<
         total += area * glm::abs(fluence[i]);
         fluence[i] = glm::max(fluence[i], DRgb(0));
     }
+    report.solveSeconds = watch.seconds();
     report.negative = below / glm::max(total, DRgb(std::numeric_limits<double>::min()));
     return report;
 }

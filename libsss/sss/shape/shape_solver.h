@@ -6,6 +6,7 @@
 #include "sss/shape/layer_sum.h"
 #include "sss/shape/source_cloud.h"
 
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -17,6 +18,7 @@ struct ShapeReport {
     DRgb negative{0};
     LayerCounts layers;
     SumCounts sources;
+    double sourceSeconds = 0, solveSeconds = 0;  ///< of the clock on the wall
 
     /// What was spent on an earlier solution, from which this one went on.
     void add(const ShapeReport& earlier);
@@ -39,9 +41,12 @@ public:
 
     /// Fluence at the points, W m^-2, from the guess that it holds: the right order of magnitude
     /// everywhere sets what may be missed where, and it is where the iteration starts. `coarser`:
-    /// times the tolerance.
+    /// times the tolerance. `onSum`, if any, is called after every sum, kSourceSums times
+    /// after that of the sources.
     ShapeReport solve(std::span<const VolumeSource> sources, std::span<DRgb> fluence,
-                      double coarser = 1) const;
+                      double coarser = 1, const std::function<void()>& onSum = {}) const;
+    /// What the sources' sum takes, about, in sums over the layers, and how many of those are made.
+    static constexpr int kSourceSums = 4, kLayerSums = 5;
     /// Solid angle over 4 pi that the body fills as seen from each point: 1/2 where it is flat.
     std::span<const float> fill() const { return fill_; }
     /// What was spent on that.

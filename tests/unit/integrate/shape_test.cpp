@@ -14,6 +14,7 @@
 #include <array>
 #include <cmath>
 #include <fstream>
+#include <mutex>
 #include <numeric>
 
 namespace sss {
@@ -100,6 +101,36 @@ TEST(Shape, DepthsEndWhereTheBodyDoes) {
         }
         EXPECT_GT(looked, 100);
     }
+}
+
+// The solution is a phase of its own, ended once, and its report says what took how long.
+TEST(Shape, TellsHowFarItIs) {
+    struct Listener final : Reporter {
+        void info(std::string_view, std::string_view) override {}
+        void warn(std::string_view, std::string_view) override {}
+        void progress(std::string_view phase, double fraction, double, bool done) override {
+            const std::scoped_lock lock(mutex);
+            if (phase != "shape") return;
+            most = std::max(most, fraction);
+            ends += done;
+        }
+        std::mutex mutex;
+        double most = 0;
+        int ends = 0;
+    } listener;
+    SceneMaker maker;
+    maker.object(SphereShape{2}, maker.material(onShape(grey(0.01, 2, 1.3))));
+    maker.light(EnvironmentLight{Rgb(1), {}, 0});
+    maker.scene.quality.spacingMm = 0.4;
+    const World world = maker.world();
+    const auto optics = makeBodyOptics(world);
+    const MadeClouds made(world, optics, listener);
+    EXPECT_EQ(listener.most, 1);
+    EXPECT_EQ(listener.ends, 1);
+    const ShapeExitance& shape = *made.reports[0].shape;
+    EXPECT_GT(shape.singleSeconds, 0);
+    EXPECT_GT(shape.report.sourceSeconds, 0);
+    EXPECT_GT(shape.report.solveSeconds, 0);
 }
 
 // What leaves a ball in sunlight leans away from where it entered. Radiant intensity in units of
