@@ -101,8 +101,9 @@ ShapeExitance solveShape(const World& world, int bodyIndex, const BodyOptics& op
     std::vector<DRgb> fluence(flat.size());
     for (std::size_t i = 0; i < flat.size(); ++i) fluence[i] = DRgb(flat[i]) * medium.impedance;
 
+    const DRgb scale = transferScale(medium, optics.material.medium);
     const auto exitanceAt = [&](std::size_t i, int c) {
-        return medium.scatters[c] ? fluence[i][c] / medium.impedance[c] : 0.0;
+        return medium.scatters[c] ? scale[c] * fluence[i][c] / medium.impedance[c] : 0.0;
     };
     const ReturningLight back(world, bodyIndex, optics, cloud);
     const int solutions = back.isNone() ? 1 : 2;

@@ -20,4 +20,13 @@ struct DiffusionConstants {
 
 DiffusionConstants diffusionConstants(const Medium& medium, const FresnelMoments& moments);
 
+/// Share of diffuse light from outside, once inside, that a flat half-space sends out again by this
+/// equation. A first collision at depth s brings exp(-k s) / (1 + b k) of itself out.
+double diffuseHalfSpaceShare(const DiffusionConstants& medium, int channel, double eta);
+/// What the exitance by this equation is to be multiplied with, by channel, so that such a
+/// half-space sends out what radiative transfer says (medium/half_space.h): 1 without absorption,
+/// 0.995 for marble, 0.87 at a reduced albedo of 0.68. What slabs let through is too bright by as
+/// much, within 3 % from an albedo of 0.6 on.
+DRgb transferScale(const DiffusionConstants& constants, const Medium& medium);
+
 }  // namespace sss
