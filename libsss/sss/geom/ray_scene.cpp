@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
-#include <mutex>
 #include <string_view>
 #include <vector>
 
@@ -26,7 +25,8 @@ namespace {
                 fmt::format("Embree error {} ({}) while {}", static_cast<int>(code), words, doing));
 }
 
-/// The process's Embree device: made for the first scene, released with the last.
+/// The process's Embree device, made for the first scene. It is never released: Embree allocates
+/// to do so, in a destructor, which ends the process where memory is out.
 class Device {
 public:
     Device() {
@@ -37,10 +37,12 @@ public:
         if (!handle_) throwEmbree(rtcGetDeviceError(nullptr), "starting");
         rtcSetDeviceErrorFunction(handle_, keepWords, this);
     }
-    ~Device() { rtcReleaseDevice(handle_); }
+    ~Device() = delete;
     Device(const Device&) = delete;
     Device& operator=(const Device&) = delete;
     RTCDevice get() const { return handle_; }
+    /// Errors of scenes before this one, whose owners have heard of them, are not its own.
+    void forgetErrors() const { rtcGetDeviceError(handle_); }
     void check(const char* doing) const {
         const RTCError code = rtcGetDeviceError(handle_);
         if (code != RTC_ERROR_NONE) throwEmbree(code, doing, words_.data());
@@ -56,13 +58,10 @@ private:
     RTCDevice handle_ = nullptr;
 };
 
-std::shared_ptr<Device> sharedDevice() {
-    static std::mutex mutex;
-    static std::weak_ptr<Device> current;
-    const std::lock_guard lock(mutex);
-    std::shared_ptr<Device> device = current.lock();
-    if (!device) current = device = std::make_shared<Device>();
-    return device;
+// Where making it fails, the next scene tries again.
+const Device& sharedDevice() {
+    static const Device* const device = new Device;
+    return *device;
 }
 
 /// Copies `values` into a new buffer that Embree owns and pads.
@@ -161,10 +160,14 @@ RTCIntersectContext contextOf(RayScene::Together together) {
 }  // namespace
 
 struct RayScene::Impl {
-    std::shared_ptr<Device> device = sharedDevice();
-    RTCScene scene = rtcNewScene(device->get());
+    const Device& device = sharedDevice();
+    RTCScene scene = nullptr;
 
-    Impl() = default;
+    Impl() {
+        device.forgetErrors();
+        scene = rtcNewScene(device.get());
+        device.check("making a scene");
+    }
     ~Impl() { rtcReleaseScene(scene); }
     Impl(const Impl&) = delete;
     Impl& operator=(const Impl&) = delete;
@@ -179,8 +182,7 @@ struct RayScene::Impl {
 };
 
 RayScene::RayScene(std::span<const Geometry> geometries) : impl_(std::make_unique<Impl>()) {
-    const Device& device = *impl_->device;
-    device.check("making a scene");
+    const Device& device = impl_->device;
     rtcSetSceneFlags(impl_->scene, RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION);
     rtcSetSceneBuildQuality(impl_->scene, RTC_BUILD_QUALITY_MEDIUM);
     for (std::size_t i = 0; i < geometries.size(); ++i) {
