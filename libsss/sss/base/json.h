@@ -35,6 +35,11 @@ public:
     JsonValue(std::string value);
     JsonValue(std::string_view value);
     JsonValue(const char* value);
+    ~JsonValue();
+    JsonValue(const JsonValue& other);
+    JsonValue& operator=(const JsonValue& other);
+    JsonValue(JsonValue&& other) noexcept;
+    JsonValue& operator=(JsonValue&& other) noexcept;
 
     static JsonValue array();
     static JsonValue array(Array items);

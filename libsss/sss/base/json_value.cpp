@@ -7,6 +7,26 @@ JsonValue::JsonValue(bool value) : data_(value) {}
 JsonValue::JsonValue(std::string value) : data_(std::move(value)) {}
 JsonValue::JsonValue(std::string_view value) : data_(std::string(value)) {}
 JsonValue::JsonValue(const char* value) : data_(std::string(value)) {}
+JsonValue::~JsonValue() = default;
+JsonValue::JsonValue(JsonValue&& other) noexcept = default;
+JsonValue& JsonValue::operator=(JsonValue&& other) noexcept = default;
+
+// The content is copied beside, and moved: where memory runs out halfway, libstdc++ 12 destroys a
+// variant of strings and vectors that has not been made yet.
+JsonValue::JsonValue(const JsonValue& other) : place(other.place) {
+    std::visit(
+        [this](const auto& content) {
+            auto copy = content;
+            data_ = std::move(copy);
+        },
+        other.data_);
+}
+
+JsonValue& JsonValue::operator=(const JsonValue& other) {
+    JsonValue copy(other);
+    *this = std::move(copy);
+    return *this;
+}
 
 JsonValue JsonValue::array() { return array(Array()); }
 
