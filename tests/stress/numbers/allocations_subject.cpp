@@ -146,8 +146,9 @@ Row tried(const Work& work, std::int64_t mostTries) {
     const std::int64_t all = allocationsOf(work);
     const std::int64_t tries = std::min(all, mostTries);
     for (std::int64_t i = 0; i < tries; ++i) {
-        // Dense at both ends: opening the scene, and writing the file.
-        const std::int64_t nth = i % 3 == 0   ? i / 3
+        // All, or dense at both ends: opening the scene, and writing the file.
+        const std::int64_t nth = tries == all ? i
+                                 : i % 3 == 0 ? i / 3
                                  : i % 3 == 1 ? all - 1 - i / 3
                                               : all * i / tries;
         const Outcome outcome = outcomeOf(work, nth);
