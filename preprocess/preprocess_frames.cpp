@@ -28,6 +28,7 @@ void exportPoints(const std::filesystem::path& path, const World& world,
     std::vector<float> areas;
     std::vector<Rgb> irradiances;
     for (std::size_t b = 0; b < clouds.size(); ++b) {
+        clouds[b].cloud.cloud.needAll();
         const RigidTransform& move = world.bodies()[b].worldFromBody;
         for (std::size_t i = 0; i < clouds[b].cloud.cloud.points.size(); ++i) {
             const SurfacePoint& p = clouds[b].cloud.cloud.points[i];
@@ -67,7 +68,9 @@ public:
                   {options.maxPoints},
                   false,
                   true,
-                  options.explain},
+                  options.explain,
+                  false,
+                  true},
                  reporter, stats) {}
 
     void run() {

@@ -79,7 +79,8 @@ private:
             const std::vector<StageRow> stages = make(frame, scene, isLast);
             row.set("seconds", stats_.wallSeconds() - wall)
                 .set("cpuSeconds", stats_.cpuSeconds() - cpu)
-                .set("stages", toJson(stages));
+                .set("stages", toJson(stages))
+                .set("cacheBytesNeeded", chain_.cacheBytesRead());
             if (options_.explain)
                 for (const StageRow& stage : stages)
                     fmt::print("frame {}: {}\n", frame.number, sentenceOf(stage));

@@ -2,6 +2,8 @@
 """Whatever is wrong with the input or the command ends with one sentence and the documented code,
 before anything is written."""
 
+import json
+
 from harness import BAD_INPUT, IO, OK, RESOURCES, STRICT, TETRAHEDRON, USAGE, CliTest, main
 
 
@@ -132,13 +134,41 @@ class Caches(CliTest):
                 self.assert_refused(BAD_INPUT, "truncated|empty", self.preprocess, "--info",
                                     "cut.ssc")
 
+    def damage(self, *places):
+        damaged = bytearray(self.whole)
+        for place in places:
+            damaged[place] ^= 0x20
+        (self.folder / "bad.ssc").write_bytes(damaged)
+
     def test_damaged(self):
+        """Only what is needed is read; what is damaged in it is named, and ends the run."""
+        self.assert_ok(self.render(self.scene, "--cache", "good.ssc", "-o", "good.exr", "--no-png",
+                                   "--no-keep"))
+        picture = (self.folder / "good.exr").read_bytes()
         for place in range(0, len(self.whole), len(self.whole) // 9):
             with self.subTest(place=place):
-                damaged = bytearray(self.whole)
-                damaged[place] ^= 0x20
-                (self.folder / "bad.ssc").write_bytes(damaged)
-                self.refused(r"bad\.ssc", "bad.ssc")
+                self.damage(place)
+                self.assert_refused(BAD_INPUT, r"bad\.ssc", self.preprocess, "--info", "bad.ssc")
+                result = self.render(self.scene, "--cache", "bad.ssc", "-o", "bad.exr", "--no-png",
+                                     "--no-keep")
+                if result.code == BAD_INPUT:
+                    self.assertRegex(result.lines("ERROR")[0], r"bad\.ssc.*damaged")
+                    self.assertNotIn("bad.exr", self.files())
+                else:
+                    self.assert_ok(result)
+                    self.assertEqual((self.folder / "bad.exr").read_bytes(), picture)
+                    (self.folder / "bad.exr").unlink()
+
+    def test_damage_found_while_rendering(self):
+        info = json.loads(self.preprocess("--info", "good.ssc", "--json").out)
+        offsets = []
+        at = 64
+        for section in info["sections"]:
+            if section["kind"] == "irrad":
+                offsets = range(at, at + section["bytes"], 1000)
+            at += (section["bytes"] + 63) // 64 * 64
+        self.damage(*offsets)
+        self.refused(r"bad\.ssc.*section 'irrad' of body 0 is damaged", "bad.ssc")
 
     def test_something_else(self):
         self.refused(r"scene\.json.*not a cache", self.scene)

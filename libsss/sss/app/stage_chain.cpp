@@ -4,6 +4,7 @@
 #include "sss/app/placed_on.h"
 #include "sss/app/stage_state.h"
 #include "sss/base/require_memory.h"
+#include "sss/cloud/cloud_guard.h"
 #include "sss/integrate/diffuse_limit.h"
 
 #include <fmt/core.h>
@@ -215,6 +216,13 @@ std::vector<FieldInput> StageChain::fieldInputs() const {
                           std::make_shared<const Owner>(now_, stage)});
     }
     return inputs;
+}
+
+std::uint64_t StageChain::cacheBytesNeeded() const {
+    std::uint64_t bytes = 0;
+    for (const auto& stage : stages_)
+        if (const auto& guard = stage->view.cloud.guard) bytes += guard->bytesChecked();
+    return bytes;
 }
 
 Fingerprint StageChain::fingerprint() const {

@@ -25,6 +25,8 @@ struct ChainOptions {
     bool explain = false;  ///< look through the folder for what changed
     /// Bodies that the camera may see by their diffuse limit (findDiffuseLimits()) need no stages.
     bool byDiffuseLimit = false;
+    /// Stages in files are checked to their last byte, however large, and made anew if damaged.
+    bool checkWhole = false;
 };
 
 /// Pass 1 as a chain of stages (points; irradiance with beams and octree; diffusion on the shape
@@ -58,6 +60,8 @@ public:
 
     /// Of this frame.
     const std::vector<StageRow>& rows() const { return rows_; }
+    /// Of the clouds that lie in files, bytes that somebody has needed so far.
+    std::uint64_t cacheBytesNeeded() const;
     /// Of all that the clouds were made from.
     Fingerprint fingerprint() const;
 

@@ -9,6 +9,10 @@
 namespace sss {
 namespace {
 
+// Bytes of a file that is checked as a whole before it is used, so that a damaged one can be made
+// anew: that takes some milliseconds. Of larger ones only what is needed is read.
+constexpr std::uint64_t kCheckedWhole = std::uint64_t{32} << 20;
+
 // Of how many files --explain looks for the one that differs least.
 constexpr std::size_t kFilesExplained = 16;
 
@@ -50,7 +54,9 @@ bool StageChain::takeLight(std::size_t b) {
     if (!folder_) return false;
     const auto timer = stats_.seconds("cache");
     BodyStage& stage = *stages_[b];
-    auto file = folder_->open(Stage::Irradiance, stage.light, reporter_);
+    auto file = options_.checkWhole
+                    ? folder_->open(Stage::Irradiance, stage.light, reporter_)
+                    : folder_->open(Stage::Irradiance, stage.light, reporter_, kCheckedWhole);
     if (!file) return false;
     const std::string where = file->path().string();
     stage.report = reportOf(metadataOf(*file), where);

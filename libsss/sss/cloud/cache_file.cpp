@@ -14,14 +14,14 @@ namespace {
 
 constexpr const char* kRebuild = "run sss-preprocess again";
 
-// Checks a mapped cache from its first byte to its last; throws Error{BadInput} at the first thing
-// that is not as CacheWriter leaves it. Nothing is allocated on the word of the file.
-class CacheVerifier {
+// Checks all of a mapped cache but what its sections hold; throws Error{BadInput} at the first
+// thing that is not as CacheWriter leaves it. Nothing is allocated on the word of the file.
+class TableReader {
 public:
-    CacheVerifier(const std::filesystem::path& path, std::span<const std::byte> bytes)
+    TableReader(const std::filesystem::path& path, std::span<const std::byte> bytes)
         : path_(path), bytes_(bytes) {}
 
-    std::vector<SectionInfo> verify() {
+    std::vector<SectionInfo> read() {
         readHeader();
         checkLayout();
         std::vector<SectionInfo> sections;
@@ -32,8 +32,14 @@ public:
         }
         refuseDuplicates(sections);
         checkGap(end, header_.tableOffset);
-        for (const SectionInfo& section : sections) checkData(section);
+        checkParts(sections);
         return sections;
+    }
+
+    std::span<const std::uint64_t> checksums() const {
+        const auto bytes = bytes_.subspan(checksumOffset());
+        return {reinterpret_cast<const std::uint64_t*>(bytes.data()),
+                bytes.size() / sizeof(std::uint64_t)};
     }
 
 private:
@@ -76,8 +82,8 @@ private:
             header_.tableOffset % kCacheAlignment != 0)
             refuse("its header is damaged (place of the table)");
         const std::uint64_t tableBytes = header_.fileBytes - header_.tableOffset;
-        if (tableBytes % sizeof(CacheEntry) != 0 ||
-            tableBytes / sizeof(CacheEntry) != header_.sectionCount)
+        if (tableBytes % sizeof(std::uint64_t) != 0 ||
+            tableBytes / sizeof(CacheEntry) < header_.sectionCount)
             refuse(fmt::format("its header is damaged ({} sections do not fit the file)",
                                header_.sectionCount));
         if (cacheHeaderChecksum(header_, bytes_.subspan(header_.tableOffset)) != header_.checksum)
@@ -101,7 +107,7 @@ private:
                          entry.count,
                          entry.offset,
                          entry.bytes,
-                         entry.checksum,
+                         entry.firstPart,
                          {entry.fingerprintLo, entry.fingerprintHi}};
         if (info.offset % kCacheAlignment != 0 || info.offset < previousEnd ||
             info.offset > header_.tableOffset || info.bytes > header_.tableOffset - info.offset)
@@ -132,9 +138,20 @@ private:
             refuse(fmt::format("damaged between sections, at byte {}", begin));
     }
 
-    void checkData(const SectionInfo& section) const {
-        if (checksum(bytes_.subspan(section.offset, section.bytes)) != section.checksum)
-            refuse(fmt::format("{} is damaged (checksum)", name(section)));
+    // Sections lie one behind the other in the file, so that their parts cannot overflow.
+    void checkParts(const std::vector<SectionInfo>& sections) const {
+        std::uint64_t parts = 0;
+        for (const SectionInfo& section : sections) {
+            if (section.firstPart != parts)
+                refuse(fmt::format("{} has its checksums elsewhere", name(section)));
+            parts += cachePartCount(section.count, cachePartShift(section.elementBytes));
+        }
+        if (checksums().size() != parts)
+            refuse(fmt::format("it has {} checksums for {} parts", checksums().size(), parts));
+    }
+
+    std::uint64_t checksumOffset() const {
+        return header_.tableOffset + header_.sectionCount * sizeof(CacheEntry);
     }
 
     static std::string name(const SectionInfo& section) {
@@ -153,8 +170,14 @@ CacheFile::CacheFile(std::filesystem::path path, MappedFile file)
 
 CacheFile CacheFile::open(const std::filesystem::path& path) {
     CacheFile cache(path, MappedFile(path));
-    cache.sections_ = CacheVerifier(path, cache.file_.bytes()).verify();
+    TableReader table(path, cache.file_.bytes());
+    cache.sections_ = table.read();
+    cache.checksums_ = table.checksums();
     return cache;
+}
+
+void CacheFile::checkAll() const {
+    for (const SectionInfo& info : sections_) partsOf(info).checkAll();
 }
 
 const SectionInfo* CacheFile::find(std::string_view kind, std::uint32_t body) const {
@@ -169,8 +192,14 @@ std::string_view CacheFile::text(std::string_view kind, std::uint32_t body) cons
     return {characters.data(), characters.size()};
 }
 
-std::span<const std::byte> CacheFile::sectionBytes(std::string_view kind, std::uint32_t body,
-                                                   std::size_t elementBytes) const {
+SectionParts CacheFile::partsOf(const SectionInfo& info) const {
+    const std::uint64_t parts = cachePartCount(info.count, cachePartShift(info.elementBytes));
+    return {path_.string(), info, file_.bytes().subspan(info.offset, info.bytes),
+            checksums_.subspan(info.firstPart, parts)};
+}
+
+SectionParts CacheFile::partsOf(std::string_view kind, std::uint32_t body,
+                                std::size_t elementBytes) const {
     const SectionInfo* info = find(kind, body);
     if (!info)
         throw Error(ErrorKind::BadInput, path_.string(),
@@ -180,7 +209,7 @@ std::span<const std::byte> CacheFile::sectionBytes(std::string_view kind, std::u
                     fmt::format("section '{}' of body {} has elements of {} bytes, not {}", kind,
                                 body, info->elementBytes, elementBytes),
                     kRebuild);
-    return file_.bytes().subspan(info->offset, info->bytes);
+    return partsOf(*info);
 }
 
 }  // namespace sss

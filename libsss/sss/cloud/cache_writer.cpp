@@ -48,9 +48,12 @@ void CacheWriter::addBytes(std::string_view kind, std::uint32_t body, std::uint3
     entry.count = bytes.size() / elementBytes;
     entry.offset = position_;
     entry.bytes = bytes.size();
-    entry.checksum = checksum(bytes);
+    entry.firstPart = checksums_.size();
     entry.fingerprintLo = fingerprint.lo;
     entry.fingerprintHi = fingerprint.hi;
+    const std::size_t partBytes = std::size_t{elementBytes} << cachePartShift(elementBytes);
+    for (auto rest = bytes; !rest.empty(); rest = rest.subspan(std::min(partBytes, rest.size())))
+        checksums_.push_back(checksum(rest.first(std::min(partBytes, rest.size()))));
     write(bytes);
     table_.push_back(entry);
 }
@@ -60,7 +63,10 @@ void CacheWriter::commit() {
     CacheHeader header;
     header.sectionCount = table_.size();
     header.tableOffset = position_;
-    const auto table = std::as_bytes(std::span(table_));
+    const auto entries = std::as_bytes(std::span(table_));
+    const auto checksums = std::as_bytes(std::span(checksums_));
+    std::vector<std::byte> table(entries.begin(), entries.end());
+    table.insert(table.end(), checksums.begin(), checksums.end());
     write(table);
     header.fileBytes = position_;
     header.checksum = cacheHeaderChecksum(header, table);

@@ -12,8 +12,8 @@
 
 namespace sss {
 
-/// Writes a cache section by section; nothing is kept in memory. Until commit() the file of that
-/// name, if any, stays as it was. Failures throw Error{Io}.
+/// Writes a cache section by section; only checksums are kept in memory. Until commit() the file of
+/// that name, if any, stays as it was. Failures throw Error{Io}.
 class CacheWriter {
 public:
     explicit CacheWriter(std::filesystem::path path);
@@ -39,6 +39,7 @@ private:
 
     AtomicFile file_;
     std::vector<CacheEntry> table_;
+    std::vector<std::uint64_t> checksums_;  // of all parts
     std::uint64_t position_ = 0;
 };
 

@@ -1,5 +1,7 @@
 #include "sss/cloud/diffusion_sum.h"
 
+#include "sss/cloud/cloud_guard.h"
+
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -57,6 +59,14 @@ DiffusionSum::DiffusionSum(const CloudView& cloud, std::span<const OctreeNode> n
                           : kMostSpacingsPerLeaf * std::sqrt(nodes[kRoot].areaMm2 /
                                                              static_cast<float>(cloud.size()))) {}
 
+void DiffusionSum::needNodes(std::uint32_t first, std::uint32_t count) const {
+    if (cloud_.guard) cloud_.guard->needNodes(first, count);
+}
+
+void DiffusionSum::needPoints(std::uint32_t first, std::uint32_t count) const {
+    if (cloud_.guard) cloud_.guard->needPoints(first, count);
+}
+
 DRgb DiffusionSum::estimate(const ReceiverCell& cell, Scratch& scratch, SumCounts& counts) const {
     DRgb sum{0};
     auto& stack = scratch.stack;
@@ -75,6 +85,7 @@ DRgb DiffusionSum::estimate(const ReceiverCell& cell, Scratch& scratch, SumCount
         if (node.isLeaf() || size * size < kCoarseOpening * kCoarseOpening * distanceSquared) {
             sum += DRgb(node.flux * table_.evaluate(distanceSquared));
         } else {
+            needNodes(node.first, node.size());
             for (std::uint32_t k = 0; k < node.size(); ++k) stack.push_back(node.first + k);
         }
     }
@@ -118,10 +129,12 @@ ErrorBound DiffusionSum::gather(const CellTest& cell, const NodeList& from, Node
                 const auto i = static_cast<std::size_t>(std::countr_zero(left));
                 const OctreeNode& node = nodes_[some[i]];
                 if (node.isLeaf()) {
+                    needPoints(node.first, node.size());
                     scratch.leaves.addRun(some[i], 1);
                     prefetch(cloud_.points.subspan(node.first, node.size()));
                     prefetch(cloud_.irradiance.subspan(node.first, node.size()));
                 } else {
+                    needNodes(node.first, node.size());
                     fresh.addRun(node.first, node.size());
                     prefetch(nodes_.subspan(node.first, node.size()));
                 }
@@ -217,6 +230,7 @@ void DiffusionSum::evaluate(std::span<const Vec3> receivers, double tolerance, s
 
 DRgb DiffusionSum::bruteForce(const Vec3& receiver) const {
     DRgb sum{0};
+    cloud_.needAll();
     for (std::size_t i = 0; i < cloud_.size(); ++i) {
         const Vec3 d = cloud_.points[i].position - receiver;
         sum += DRgb(cloud_.flux(i)) * DRgb(table_.evaluate(glm::dot(d, d)));

@@ -68,7 +68,8 @@ public:
     };
 
     /// `out[i]` = M at receivers[i] (mm, body space). The answer of a receiver depends on its
-    /// group, within the tolerance: callers that want repeatable bytes use fixed groups.
+    /// group, within the tolerance: callers that want repeatable bytes use fixed groups. Throws
+    /// Error{BadInput} if the cloud lies in a file that is damaged where it is needed.
     void evaluate(std::span<const Vec3> receivers, double tolerance, std::span<Rgb> out,
                   Scratch& scratch, SumCounts& counts) const;
     /// The sum over all points, in double: the oracle.
@@ -100,6 +101,9 @@ private:
     /// which points are taken one by one. Returns the bounds of what is left out.
     ErrorBound gather(const CellTest& cell, const NodeList& from, NodeList* pending,
                       Scratch& scratch, SumCounts& counts) const;
+    // Before looking at them; they may lie in a file unread.
+    void needNodes(std::uint32_t first, std::uint32_t count) const;
+    void needPoints(std::uint32_t first, std::uint32_t count) const;
     void addPoints(const OctreeNode& leaf, InteractionList& points, SumCounts& counts) const;
 
     CloudView cloud_;

@@ -44,17 +44,27 @@ std::unique_ptr<ExitanceGroup> ExitanceField::compute(std::uint32_t index) const
 
 const ExitanceGroup& ExitanceField::group(std::uint32_t index) const {
     std::atomic<const ExitanceGroup*>& entry = groups_[index];
-    const ExitanceGroup* found = entry.load(std::memory_order_acquire);
-    if (found != nullptr && found != busy()) return *found;
-    const ExitanceGroup* absent = nullptr;
-    if (entry.compare_exchange_strong(absent, busy())) {
-        found = compute(index).release();
-        entry.store(found, std::memory_order_release);
+    const auto leave = [&](const ExitanceGroup* group) {
+        entry.store(group, std::memory_order_release);
         entry.notify_all();
+    };
+    while (true) {
+        const ExitanceGroup* found = entry.load(std::memory_order_acquire);
+        if (found == busy()) {
+            entry.wait(found);
+            continue;
+        }
+        if (found != nullptr) return *found;
+        if (!entry.compare_exchange_strong(found, busy())) continue;
+        try {
+            found = compute(index).release();
+        } catch (...) {
+            leave(nullptr);  // who waits for it tries for himself
+            throw;
+        }
+        leave(found);
         return *found;
     }
-    while ((found = entry.load(std::memory_order_acquire)) == busy()) entry.wait(found);
-    return *found;
 }
 
 bool ExitanceField::adopt(std::uint32_t index, ExitanceGroup group) {

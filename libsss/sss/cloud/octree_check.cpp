@@ -1,16 +1,11 @@
 #include "sss/cloud/octree_check.h"
 
-#include "sss/base/parallel.h"
-
 #include <algorithm>
-#include <atomic>
 #include <cmath>
-#include <cstdint>
+#include <limits>
 
 namespace sss {
 namespace {
-
-constexpr std::size_t kGrain = 1 << 14;
 
 // mm. Squares of distances between places within this stay finite in single precision: what the sum
 // looks up by them stays in its table.
@@ -30,7 +25,7 @@ bool isSound(const SurfacePoint& p) {
     return isNear(p.position) && excess(p.areaMm2) == 0.0f && p.areaMm2 >= 0;
 }
 
-bool isSound(const OctreeNode& node) {
+bool areNumbersSound(const OctreeNode& node) {
     float sum = excess(node.areaMm2) + excess(node.chromaticOffset) + excess(node.chromaticMoment) +
                 excess(node.cubicMean);
     for (const float moment : node.moments) sum += excess(moment);
@@ -38,44 +33,63 @@ bool isSound(const OctreeNode& node) {
            isNear(node.lo) && isNear(node.hi);
 }
 
-template <typename Test>
-bool allOf(std::size_t count, const Test& test) {
-    std::atomic<bool> all{true};
-    parallelFor(count, kGrain, [&](std::size_t begin, std::size_t end) {
-        bool sound = true;
-        for (std::size_t i = begin; i < end; ++i) sound &= test(i);
-        if (!sound) all = false;
-    });
+// No branch, so that the loop runs at the speed of memory.
+template <typename T, typename Test>
+bool allOf(std::span<const T> items, const Test& test) {
+    bool all = true;
+    for (const T& item : items) all &= test(item);
     return all;
 }
 
-// Every node but the root is the next child of the next inner node.
-bool isTree(std::span<const OctreeNode> nodes, std::size_t pointCount) {
-    if (nodes.empty()) return pointCount == 0;
-    std::uint64_t nextChild = 1, points = 0;
-    for (std::size_t n = 0; n < nodes.size(); ++n) {
-        const OctreeNode& node = nodes[n];
-        if (node.isLeaf()) {
-            if (std::uint64_t{node.first} + node.size() > pointCount) return false;
-            points += node.size();
-        } else {
-            if (node.first != nextChild || node.first <= n || node.size() == 0) return false;
-            nextChild += node.size();
-        }
-    }
-    return nextChild == nodes.size() && points == pointCount;
+void pass(const OctreeNode& node, NodesBefore& before) {
+    (node.isLeaf() ? before.points : before.children) += node.size();
 }
 
 }  // namespace
 
-bool isSound(const CloudView& cloud, std::span<const OctreeNode> nodes) {
-    const std::size_t count = cloud.points.size();
-    return cloud.irradiance.size() == count && isTree(nodes, count) &&
-           allOf(count,
-                 [&](std::size_t i) {
-                     return isSound(cloud.points[i]) && isLight(cloud.irradiance[i]);
-                 }) &&
-           allOf(nodes.size(), [&](std::size_t i) { return isSound(nodes[i]); });
+std::vector<NodesBefore> nodesBefore(std::span<const OctreeNode> nodes, unsigned shift) {
+    std::vector<NodesBefore> parts;
+    NodesBefore before;
+    for (std::size_t n = 0; n < nodes.size(); ++n) {
+        if (n >> shift == parts.size()) parts.push_back(before);
+        pass(nodes[n], before);
+    }
+    return parts;
 }
+
+bool isSound(std::span<const NodesBefore> parts, const OctreeSize& size) {
+    if (parts.empty()) return size.nodes == 0 && size.points == 0;
+    constexpr std::size_t kMost = std::numeric_limits<std::uint32_t>::max();
+    if (size.nodes > kMost || size.points > kMost) return false;
+    NodesBefore before;
+    if (parts.front() != before) return false;
+    for (const NodesBefore& part : parts) {
+        if (part.children < before.children || part.points < before.points) return false;
+        before = part;
+    }
+    return before.children <= size.nodes && before.points <= size.points;
+}
+
+bool isSound(std::span<const OctreeNode> nodes, std::size_t first, NodesBefore before,
+             const NodesBefore& after, const OctreeSize& size) {
+    for (std::size_t n = 0; n < nodes.size(); ++n) {
+        const OctreeNode& node = nodes[n];
+        // Every node but the root is the next child of the next inner node.
+        const bool isPlaced =
+            node.isLeaf() ? std::uint64_t{node.first} + node.size() <= size.points &&
+                                node.size() <= after.points - before.points
+                          : node.first == before.children && node.first > first + n &&
+                                node.size() > 0 && node.size() <= after.children - before.children;
+        if (!isPlaced) return false;
+        pass(node, before);
+    }
+    return before == after && allOf(nodes, areNumbersSound);
+}
+
+bool areSound(std::span<const SurfacePoint> points) {
+    return allOf(points, [](const SurfacePoint& p) { return isSound(p); });
+}
+
+bool areSound(std::span<const Rgb> irradiance) { return allOf(irradiance, isLight); }
 
 }  // namespace sss

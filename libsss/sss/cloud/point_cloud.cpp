@@ -1,5 +1,7 @@
 #include "sss/cloud/point_cloud.h"
 
+#include "sss/cloud/cloud_guard.h"
+
 namespace sss {
 namespace {
 
@@ -30,6 +32,10 @@ Vec3 decodeUnitVector(std::uint32_t code) {
         n.y = (1.0f - std::abs(x)) * signNotZero(y);
     }
     return glm::normalize(n);
+}
+
+void CloudView::needAll() const {
+    if (guard) guard->needAll();
 }
 
 }  // namespace sss

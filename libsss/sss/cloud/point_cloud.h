@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -30,13 +31,20 @@ struct SurfacePoint {
 };
 static_assert(sizeof(SurfacePoint) == 28);
 
+class CloudGuard;
+
 /// A cached cloud as the sums see it: points in Morton order and what enters at each.
 struct CloudView {
     std::span<const SurfacePoint> points;
     std::span<const Rgb> irradiance;  ///< transmitted irradiance E of each point, W m^-2
+    /// Of a cloud that lies in a file, to be asked before looking at points or nodes of its octree;
+    /// null where all is known to be sound.
+    std::shared_ptr<const CloudGuard> guard = nullptr;
 
     std::size_t size() const { return points.size(); }
     Rgb flux(std::size_t i) const { return irradiance[i] * points[i].areaMm2; }
+    /// For those who look at all of it. Throws Error{BadInput} if its file is damaged.
+    void needAll() const;
 };
 
 }  // namespace sss

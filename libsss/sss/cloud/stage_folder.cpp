@@ -39,7 +39,6 @@ StageFolder::StageFolder(std::filesystem::path folder, bool create) : folder_(st
                            : "there is no such folder",
                     create ? "check that the place is writable" : "run sss-preprocess first");
     if (create) removeAbandonedFiles(folder_);
-    if (create) removeAbandonedFiles(folder_);
 }
 
 std::filesystem::path StageFolder::file(Stage stage, const Fingerprint& made) const {
@@ -47,13 +46,15 @@ std::filesystem::path StageFolder::file(Stage stage, const Fingerprint& made) co
            fmt::format("{}-{}{}", namesOf(stage).name, made.hex(), namesOf(stage).extension);
 }
 
-std::optional<CacheFile> StageFolder::open(Stage stage, const Fingerprint& made,
-                                           Reporter& reporter) const {
+std::optional<CacheFile> StageFolder::open(Stage stage, const Fingerprint& made, Reporter& reporter,
+                                           std::uint64_t wholeBytes) const {
     const std::filesystem::path path = file(stage, made);
     std::error_code ignored;
     if (!std::filesystem::exists(path, ignored)) return {};
     try {
-        return CacheFile::open(path);
+        CacheFile file = CacheFile::open(path);
+        if (file.fileBytes() <= wholeBytes) file.checkAll();
+        return file;
     } catch (const Error& error) {
         reporter.warn("cache", fmt::format("a stage cannot be used: {}", error.what()));
         return {};

@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <string_view>
 #include <utility>
@@ -29,9 +30,11 @@ public:
 
     const std::filesystem::path& path() const { return folder_; }
     std::filesystem::path file(Stage stage, const Fingerprint& made) const;
-    /// The stage's file, verified; none if it is not there, or if it is damaged, which is said in a
-    /// warning.
-    std::optional<CacheFile> open(Stage stage, const Fingerprint& made, Reporter& reporter) const;
+    /// The stage's file; none if it is not there, or if it is damaged, which is said in a warning.
+    /// What a file of more than `wholeBytes` holds is not checked yet.
+    std::optional<CacheFile> open(
+        Stage stage, const Fingerprint& made, Reporter& reporter,
+        std::uint64_t wholeBytes = std::numeric_limits<std::uint64_t>::max()) const;
     /// The files of a stage, the newest first.
     std::vector<std::filesystem::path> all(Stage stage) const;
 

@@ -31,6 +31,14 @@ Rgb leanLength(const Medium& medium) {
     return length;
 }
 
+std::unique_ptr<PointInterpolator> correctionBy(const BodyCloud::View& cloud,
+                                                const Medium& medium) {
+    if (cloud.solved.empty()) return nullptr;
+    cloud.cloud.needAll();
+    return std::make_unique<PointInterpolator>(cloud.cloud.points, cloud.solved,
+                                               leanLength(medium));
+}
+
 }  // namespace
 
 BodyField::BodyField(const Body& body, const BodyOptics& optics, const BodyCloud::View& cloud,
@@ -38,10 +46,7 @@ BodyField::BodyField(const Body& body, const BodyOptics& optics, const BodyCloud
     : table_(optics.profilePointers(), body.mesh.bounds().diagonal() * 1.01,
              cloud.spacingMm / std::sqrt(kPi)),
       sum_(cloud.cloud, cloud.nodes, table_),
-      correction_(cloud.solved.empty()
-                      ? nullptr
-                      : std::make_unique<PointInterpolator>(cloud.cloud.points, cloud.solved,
-                                                            leanLength(optics.material.medium))),
+      correction_(correctionBy(cloud, optics.material.medium)),
       field_(body.mesh, sum_, segmentLength(body, optics), tolerance, correction_.get()) {}
 
 }  // namespace sss

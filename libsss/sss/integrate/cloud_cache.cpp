@@ -1,7 +1,6 @@
 #include "sss/integrate/cloud_cache.h"
 
 #include "sss/base/error.h"
-#include "sss/cloud/octree_check.h"
 #include "sss/integrate/scene_fingerprint.h"
 
 #include <fmt/core.h>
@@ -86,6 +85,7 @@ CloudCache::CloudCache(const std::filesystem::path& path, const World& world,
 
 JsonValue describeCache(const std::filesystem::path& path) {
     const CacheFile file = CacheFile::open(path);
+    file.checkAll();
     JsonValue meta = metadataOf(file);
     JsonValue description = JsonValue::object();
     description.set("file", path.string())

@@ -24,7 +24,8 @@ struct CachedBody {
 void writeCloudCache(const std::filesystem::path& path, const World& world,
                      std::span<const CachedBody> cached);
 
-/// The clouds of a cache file, used where they lie in memory-mapped sections.
+/// The clouds of a cache file, used where they lie in memory-mapped sections, of which only the
+/// parts that somebody needs are read.
 class CloudCache {
 public:
     /// Opens a cache made for this world. Throws Error{BadInput} with the reason if it was made for
@@ -45,7 +46,7 @@ private:
     std::vector<BodyReport> reports_;
 };
 
-/// What a cache says of itself (format, scene, bodies), for --info.
+/// What a cache says of itself (format, scene, bodies), for --info. Checks all that is in it.
 JsonValue describeCache(const std::filesystem::path& path);
 
 }  // namespace sss

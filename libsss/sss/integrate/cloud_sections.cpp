@@ -1,7 +1,7 @@
 #include "sss/integrate/cloud_sections.h"
 
 #include "sss/base/error.h"
-#include "sss/cloud/octree_check.h"
+#include "sss/cloud/cloud_guard.h"
 
 #include <fmt/core.h>
 
@@ -9,8 +9,9 @@ namespace sss {
 namespace {
 
 constexpr std::string_view kPoints = "points", kIrradiance = "irrad", kOctree = "octree",
-                           kMeta = "meta", kPieces = "pieces", kCorners = "corners",
-                           kFirstPiece = "first", kShape = "shape", kBeams = "beams";
+                           kNodesBefore = "before", kMeta = "meta", kPieces = "pieces",
+                           kCorners = "corners", kFirstPiece = "first", kShape = "shape",
+                           kBeams = "beams";
 constexpr const char* kUnscattered = "unscatteredShare";
 
 JsonValue list(const DRgb& v) {
@@ -54,19 +55,24 @@ double numberIn(const JsonValue& described, std::string_view key, const std::str
 void addCloud(CacheWriter& writer, std::uint32_t b, const BodyInputs& inputs,
               const BodyCloud::View& cloud) {
     const Fingerprint light = lightFingerprint(inputs);
+    cloud.cloud.needAll();
     writer.add<SurfacePoint>(kPoints, b, pointsFingerprint(inputs), cloud.cloud.points);
     writer.add<Rgb>(kIrradiance, b, light, cloud.cloud.irradiance);
     writer.add<OctreeNode>(kOctree, b, light, cloud.nodes);
+    writer.add<NodesBefore>(kNodesBefore, b, light,
+                            nodesBefore(cloud.nodes, cachePartShift(sizeof(OctreeNode))));
     if (!cloud.solved.empty()) addSolved(writer, b, inputs, cloud.solved);
 }
 
 BodyCloud::View cloudOf(const CacheFile& file, std::uint32_t b, double spacingMm) {
-    const CloudView cloud{file.section<SurfacePoint>(kPoints, b),
-                          file.section<Rgb>(kIrradiance, b)};
-    const auto nodes = file.section<OctreeNode>(kOctree, b);
-    if (!isSound(cloud, nodes))
-        refuse(file, fmt::format("the octree of body {} does not fit its points", b));
-    return {cloud, nodes, spacingMm, {}};
+    const CloudSections sections{
+        file.unchecked<SurfacePoint>(kPoints, b), file.unchecked<Rgb>(kIrradiance, b),
+        file.unchecked<OctreeNode>(kOctree, b), file.section<NodesBefore>(kNodesBefore, b)};
+    return {{sections.points.elements, sections.irradiance.elements,
+             std::make_shared<const CloudGuard>(sections)},
+            sections.nodes.elements,
+            spacingMm,
+            {}};
 }
 
 void addSolved(CacheWriter& writer, std::uint32_t b, const BodyInputs& inputs,

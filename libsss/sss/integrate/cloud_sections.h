@@ -14,8 +14,8 @@ namespace sss {
 /// of body number `b`.
 void addCloud(CacheWriter& writer, std::uint32_t b, const BodyInputs& inputs,
               const BodyCloud::View& cloud);
-/// The same as they lie in the file. Throws Error{BadInput} if they do not fit each other: then
-/// some other program wrote them, for the checksums hold.
+/// The same as they lie in the file, to be asked for part by part (CloudView::guard). Throws
+/// Error{BadInput} if they do not fit each other, or what says so is damaged.
 BodyCloud::View cloudOf(const CacheFile& file, std::uint32_t b, double spacingMm);
 /// Diffusion on the shape of body `b`, for as many points. Throws Error{BadInput} as above.
 std::span<const SolvedExitance> solvedOf(const CacheFile& file, std::uint32_t b,

@@ -52,6 +52,7 @@ std::uint64_t ExitanceCache::adopt(std::span<const std::unique_ptr<BodyField>> f
     std::uint64_t adopted = 0;
     if (!std::filesystem::exists(file_)) return adopted;
     const CacheFile cache = CacheFile::open(file_);
+    cache.checkAll();
     for (std::uint32_t b = 0; b < fields.size(); ++b) {
         const SectionInfo* found = cache.find(kGroups, b);
         if (!fields[b] || !found || found->fingerprint != fingerprints_[b]) continue;
@@ -84,7 +85,11 @@ void ExitanceCache::save(std::span<const std::unique_ptr<BodyField>> fields, Rep
     std::optional<CacheFile> old;
     try {
         adopt(fields);  // what others have added meanwhile
-        if (std::filesystem::exists(file_)) old = CacheFile::open(file_);
+        if (std::filesystem::exists(file_)) {
+            CacheFile there = CacheFile::open(file_);
+            there.checkAll();
+            old = std::move(there);
+        }
     } catch (const Error&) {
         // Damaged: load() has said so, and it is replaced now.
     }

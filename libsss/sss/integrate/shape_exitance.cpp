@@ -85,6 +85,7 @@ ShapeExitance solveShape(const World& world, int bodyIndex, const BodyOptics& op
     const double tolerance = world.scene().quality.tolerance;
     DiffusionConstants medium =
         diffusionConstants(optics.material.medium, momentsOf(optics.material));
+    cloud.cloud.needAll();
     ShapeExitance result;
     std::vector<Rgb> once(onceOfPassOne.begin(), onceOfPassOne.end());
     for (int c = 0; c < 3; ++c) {

@@ -183,7 +183,7 @@ std::function<std::string(bool)> wholeStages(const std::filesystem::path& folder
         for (const auto& entry : std::filesystem::directory_iterator(folder)) {
             if (entry.path().filename() == "lock") continue;
             try {
-                CacheFile::open(entry.path());
+                CacheFile::open(entry.path()).checkAll();
             } catch (const Error& error) {
                 complaint = error.what();
             }

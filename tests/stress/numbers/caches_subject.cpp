@@ -21,10 +21,12 @@ using testing::readFile;
 using testing::TemporaryFolder;
 using testing::writeFile;
 
-// Whether opening it ends in an error that names the file and says what is wrong.
+// Whether opening it and looking at all of it ends in an error that names the file and says what is
+// wrong.
 bool isRefused(const std::filesystem::path& file, const Passes& passes) {
     try {
         const CloudCache cache(file, passes.world(), passes.optics());
+        cache.view(0).cloud.needAll();
         return false;
     } catch (const Error& error) {
         return error.kind() == ErrorKind::BadInput &&
@@ -55,7 +57,7 @@ void bombs(const TemporaryFolder& folder, const Passes& passes, Report& report) 
         for (const bool isRepaired : {false, true}) {
             const auto fixed = withRightChecksums(std::as_bytes(std::span(lie)));
             std::string bytes(lie);
-            if (isRepaired) std::memcpy(bytes.data(), fixed.data(), fixed.size());
+            if (isRepaired) bytes.assign(reinterpret_cast<const char*>(fixed.data()), fixed.size());
             if (bytes == whole) continue;  // the lie stood where repairing puts the truth
             writeFile(folder / "lie.ssc", bytes);
             const auto what = [&] { return fmt::format("{} at byte {}", value, place); };
@@ -71,7 +73,9 @@ void bombs(const TemporaryFolder& folder, const Passes& passes, Report& report) 
              {offsetof(CacheHeader, sectionCount), offsetof(CacheHeader, tableOffset),
               offsetof(CacheHeader, fileBytes)})
             tryIt(field, value);
-        for (std::uint64_t entry = header.tableOffset; entry < whole.size();
+        const std::uint64_t entriesEnd =
+            header.tableOffset + header.sectionCount * sizeof(CacheEntry);
+        for (std::uint64_t entry = header.tableOffset; entry < entriesEnd;
              entry += sizeof(CacheEntry))
             for (const std::size_t field :
                  {offsetof(CacheEntry, count), offsetof(CacheEntry, offset),

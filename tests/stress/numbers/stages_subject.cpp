@@ -69,12 +69,12 @@ public:
     const std::string& whole(const TriedStage& stage) const {
         return whole_.at(stage.extension).second;
     }
-    /// Whether opening the stage's file ends in an error that names it.
+    /// Whether opening and reading the stage's file ends in an error that names it.
     bool isRefused(const TriedStage& stage, const std::string& bytes) const {
         const std::filesystem::path& file = whole_.at(stage.extension).first;
         testing::writeFile(file, bytes);
         try {
-            CacheFile::open(file);
+            CacheFile::open(file).checkAll();
             return false;
         } catch (const Error& error) {
             return error.kind() == ErrorKind::BadInput && error.where() == file.string();
@@ -86,7 +86,8 @@ public:
         CountingReporter reporter;
         if (passBy(folder_.path(), world_, reporter) != truth_) return "another outcome";
         if (reporter.warnings == 0) return "no warning";
-        for (const auto& [extension, file] : filesIn(folder_.path())) CacheFile::open(file.first);
+        for (const auto& [extension, file] : filesIn(folder_.path()))
+            CacheFile::open(file.first).checkAll();
         return {};
     }
     /// The same where the file bears the right checksums of a wrong content.

@@ -55,7 +55,7 @@ std::string messageOf(const std::function<void()>& action, ErrorKind kind = Erro
 std::string refusal(const std::filesystem::path& path, const std::string& bytes,
                     ErrorKind kind = ErrorKind::BadInput) {
     writeFile(path, bytes);
-    return messageOf([&] { CacheFile::open(path); }, kind);
+    return messageOf([&] { CacheFile::open(path).checkAll(); }, kind);
 }
 
 bool contains(const std::string& text, std::string_view part) {
@@ -71,11 +71,12 @@ std::string forged(const std::string& whole,
     const std::size_t tableOffset = header.tableOffset;
     std::memcpy(table.data(), whole.data() + tableOffset, table.size() * sizeof table[0]);
     change(header, table);
-    header.checksum = cacheHeaderChecksum(header, std::as_bytes(std::span(table)));
-    std::string bytes = whole.substr(0, tableOffset);
+    std::string bytes = whole;
+    std::memcpy(bytes.data() + tableOffset, table.data(), table.size() * sizeof table[0]);
+    header.checksum =
+        cacheHeaderChecksum(header, std::as_bytes(std::span(bytes).subspan(tableOffset)));
     std::memcpy(bytes.data(), &header, sizeof header);
-    return bytes.append(reinterpret_cast<const char*>(table.data()),
-                        table.size() * sizeof table[0]);
+    return bytes;
 }
 
 class CacheFileTest : public ::testing::Test {
@@ -194,8 +195,8 @@ TEST_F(CacheFileTest, OtherVersionsAndByteOrders) {
     const auto message = [&](auto change) { return refusal(damaged, forged(whole, change)); };
     EXPECT_TRUE(contains(message([](CacheHeader& h, auto&) { h.version = 5; }),
                          "format 5 is newer than this program's 4"));
-    EXPECT_TRUE(contains(message([](CacheHeader& h, auto&) { h.version = 0; }),
-                         "format 0 is older than this program's 4"));
+    EXPECT_TRUE(contains(message([](CacheHeader& h, auto&) { h.version = 3; }),
+                         "format 3 is older than this program's 4"));
     EXPECT_TRUE(
         contains(message([](CacheHeader& h, auto&) { h.endianMark = 0x04030201; }), "byte order"));
 }
@@ -243,11 +244,61 @@ TEST_F(CacheFileTest, HostileTablesAreRefused) {
                              t[1].offset = t[2].offset;
                              t[1].bytes = t[2].bytes;
                              t[1].count = t[2].count;
-                             t[1].checksum = t[2].checksum;
                              t[2].offset = t[3].offset;
                              t[2].bytes = t[2].count = 0;
                          }),
                          "damaged between sections"));
+}
+
+TEST_F(CacheFileTest, ChecksumsForOtherPartsAreRefused) {
+    using Table = std::vector<CacheEntry>;
+    const auto message = [&](auto change) { return refusal(damaged, forged(whole, change)); };
+    for (const std::uint64_t n : {std::uint64_t{0}, std::uint64_t{7}, ~std::uint64_t{0}})
+        EXPECT_TRUE(contains(message([&](auto&, Table& t) { t[2].firstPart = n; }),
+                             "has its checksums elsewhere"));
+    EXPECT_TRUE(contains(message([](auto&, Table& t) {
+                             t[3].count = t[3].bytes = 0;
+                             t[4].firstPart -= 1;
+                             t[4].offset = t[3].offset;
+                         }),
+                         "damaged between sections"));
+    // As many sections, one checksum more.
+    std::string longer = whole + std::string(8, '\0');
+    longer = forged(longer, [&](CacheHeader& h, Table&) { h.fileBytes = longer.size(); });
+    EXPECT_TRUE(contains(refusal(damaged, longer), "5 checksums for 4 parts"));
+}
+
+TEST_F(CacheFileTest, PartsAreCheckedWhenAskedFor) {
+    std::vector<std::uint64_t> numbers(100'000);
+    std::iota(numbers.begin(), numbers.end(), 0);
+    {
+        CacheWriter writer(path);
+        writer.add("numbers", 0, {}, std::span(std::as_const(numbers)));
+        writer.addText("meta", 0, {}, "{}");
+        writer.commit();
+    }
+    std::string bytes = readFile(path);
+    const SectionInfo info = *CacheFile::open(path).find("numbers", 0);
+    const std::size_t place = 20'000;
+    bytes[info.offset + place * sizeof numbers[0]] ^= 1;
+    writeFile(path, bytes);
+    const CacheFile cache = CacheFile::open(path);
+    EXPECT_EQ(cache.text("meta", 0), "{}");
+    const auto unchecked = cache.unchecked<std::uint64_t>("numbers", 0);
+    const std::size_t bad = place >> unchecked.parts.shift();
+    std::size_t elements = 0;
+    for (std::size_t part = 0; part < unchecked.parts.count(); ++part) {
+        EXPECT_EQ(unchecked.part(part)[0], elements + (elements == place ? 1 : 0));
+        elements += unchecked.part(part).size();
+        if (part != bad)
+            unchecked.parts.check(part);
+        else
+            EXPECT_TRUE(contains(messageOf([&] { unchecked.parts.check(part); }),
+                                 "section 'numbers' of body 0 is damaged (checksum)"));
+    }
+    EXPECT_EQ(elements, numbers.size());
+    EXPECT_GT(bad, 0u);
+    messageOf([&] { cache.section<std::uint64_t>("numbers", 0); });
 }
 
 TEST_F(CacheFileTest, UnknownKindsAreNoError) {

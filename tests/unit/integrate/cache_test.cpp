@@ -1,4 +1,5 @@
 #include "sss/base/error.h"
+#include "sss/cloud/octree_check.h"
 #include "sss/integrate/cloud_cache.h"
 #include "sss/integrate/cloud_sections.h"
 #include "sss/integrate/scene_fingerprint.h"
@@ -314,6 +315,7 @@ TEST(CloudCache, OctreeThatDoesNotFitIsRefused) {
         writer.add<SurfacePoint>("points", 0, {}, good.section<SurfacePoint>("points", 0));
         writer.add<Rgb>("irrad", 0, {}, good.section<Rgb>("irrad", 0));
         writer.add<OctreeNode>("octree", 0, {}, nodes);
+        writer.add<NodesBefore>("before", 0, {}, good.section<NodesBefore>("before", 0));
         writer.addText("meta", 0, {}, good.text("meta", 0));
         writer.commit();
         const std::string message = refusal(folder / "bad.ssc", written.maker.scene);
@@ -379,7 +381,7 @@ TEST(CloudCache, DescribesItself) {
     EXPECT_EQ(body.find("points")->value.asNumber(),
               static_cast<double>(written.made.clouds[0].points.size()));
     EXPECT_EQ(body.find("meanFreePathMm")->value.items().size(), 3u);
-    EXPECT_EQ(info.find("sections")->value.items().size(), 4u);
+    EXPECT_EQ(info.find("sections")->value.items().size(), 5u);
 }
 
 }  // namespace
