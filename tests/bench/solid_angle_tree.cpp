@@ -1,5 +1,6 @@
 #include "solid_angle_tree.h"
 
+#include "sss/base/bounds.h"
 #include "sss/base/error.h"
 #include "sss/medium/dipole.h"
 
@@ -53,9 +54,19 @@ Rgb SolidAngleTree::ClosedForm::evaluate(float distanceSquaredMm2) const {
 }
 
 SolidAngleTree::SolidAngleTree(const CloudView& cloud, std::span<const OctreeNode> nodes) {
+    std::vector<Bounds> boxes(nodes.size());
+    for (std::size_t n = nodes.size(); n-- > 0;)  // children stand behind their parents
+        for (std::uint32_t k = nodes[n].first; k < nodes[n].first + nodes[n].size(); ++k)
+            if (nodes[n].isLeaf())
+                boxes[n].add(cloud.points[k].position);
+            else
+                boxes[n].add(boxes[k]);
     nodes_.reserve(nodes.size());
-    for (const OctreeNode& n : nodes)
-        nodes_.push_back({n.centroid, n.areaMm2, n.flux, n.first, n.lo, n.count, n.hi});
+    for (std::size_t n = 0; n < nodes.size(); ++n) {
+        const OctreeNode& node = nodes[n];
+        nodes_.push_back({node.centroid, node.areaMm2, node.flux, node.first, boxes[n].lo,
+                          node.count, boxes[n].hi});
+    }
     points_.reserve(cloud.size());
     for (std::size_t i = 0; i < cloud.size(); ++i)
         points_.push_back({cloud.points[i].position, cloud.flux(i)});

@@ -13,21 +13,20 @@ Verdict judgeScalar(const KernelTable& table, std::span<const OctreeNode> nodes,
     for (std::size_t i = 0; i < indices.size(); ++i) {
         const OctreeNode& node = nodes[indices[i]];
         const std::uint64_t bit = std::uint64_t{1} << i;
-        const float radius = node.radius();
+        const float radius = node.radius;
         if (node.isLeaf() || radius < cell.radius) verdict.fine |= bit;
         const float distance = glm::length(node.centroid - cell.centre);
         const float nearest = std::max(0.0f, distance - cell.radius - radius);
         const KernelTable::BoundsRow& bound = table.boundsAt(nearest * nearest);
         const float third = thirdOrder(node.cubicMean, cell.reach);
-        const float second = node.chromaticMoment * 0.5f + node.chromaticOffset * cell.reach;
+        const float second = node.chromaticMoment * 0.5f;
         bool isDark = true, isTaken = true;
         Rgb changing, steady;
         for (int c = 0; c < 3; ++c) {
             const float flux = node.flux[c], threshold = cell.threshold[c];
             isDark &= flux * bound.derivative[0][c] <= threshold * kNegligibleShare;
             changing[c] = flux * (bound.derivative[3][c] * third);
-            steady[c] = flux * (bound.derivative[2][c] * second +
-                                bound.derivative[1][c] * node.chromaticOffset);
+            steady[c] = flux * (bound.derivative[2][c] * second);
             isTaken &= changing[c] + steady[c] * kSteadyWeight <= threshold;
         }
         if (isDark) verdict.dark |= bit;

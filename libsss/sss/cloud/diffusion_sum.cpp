@@ -81,7 +81,7 @@ DRgb DiffusionSum::estimate(const ReceiverCell& cell, Scratch& scratch, SumCount
         }
         const Vec3 d = node.centroid - cell.centre;
         const float distanceSquared = glm::dot(d, d);
-        const float size = node.radius();
+        const float size = node.radius;
         if (node.isLeaf() || size * size < kCoarseOpening * kCoarseOpening * distanceSquared) {
             sum += DRgb(node.flux * table_.evaluate(distanceSquared));
         } else {

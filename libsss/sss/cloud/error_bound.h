@@ -8,8 +8,9 @@ namespace sss {
 //   from node to node, and the parts are added in quadrature. What is due to the receivers' own
 //   distance from the place of expansion has one sign for all the nodes on one side and weighs
 //   more;
-// - where the channels' moments differ from the mean's: of one sign over whole regions (red light
-//   here, blue there); these are added as they stand and weigh more in a node's share.
+// - where the channels' second moments differ from the mean's: of one sign over whole regions (red
+//   light here, blue there); these are added as they stand and weigh more in a node's share. What
+//   is of first order, that red lies elsewhere than blue, is not left out (OctreeNode::lean).
 
 inline constexpr float kSteadyWeight = 10.0f;
 /// At 1 a box of faces far larger than the mean free path misses a tolerance of 1 % at 1 % of the

@@ -7,6 +7,7 @@ namespace sss {
 InteractionList::Block& InteractionList::room() {
     if (used_ == 0 || blocks_[used_ - 1].count == kBlock) {
         if (used_ == blocks_.size()) blocks_.emplace_back();
+        blocks_[used_].isColoured = false;
         blocks_[used_++].count = 0;
     }
     return blocks_[used_ - 1];
@@ -45,6 +46,10 @@ void InteractionList::pad() {
         block.z[i] = block.z[0];
         for (auto& m : block.moments) m[i] = 0.0f;
         for (float& f : block.flux[i]) f = 0.0f;
+        if (!block.isColoured) continue;
+        for (auto& axis : block.lean)
+            for (float& lean : axis[i]) lean = 0.0f;
+        block.meanFlux[i] = 0.0f;
     }
 }
 
@@ -59,12 +64,36 @@ void packScalar(std::span<const OctreeNode> nodes, std::span<const std::uint32_t
         for (int c = 0; c < 3; ++c) to.flux[i][c] = node.flux[c];
         to.flux[i][3] = 0.0f;
     }
+    packLeans(nodes, indices, to);
+}
+
+void packLeans(std::span<const OctreeNode> nodes, std::span<const std::uint32_t> indices,
+               InteractionList::Block& to) {
+    to.isColoured = std::ranges::any_of(
+        indices, [&](std::uint32_t index) { return nodes[index].isColoured(); });
+    if (!to.isColoured) return;
+    for (std::size_t i = 0; i < indices.size(); ++i) {
+        const OctreeNode& node = nodes[indices[i]];
+        const auto& [red, blue] = node.lean;
+        for (int axis = 0; axis < 3; ++axis) {
+            float* lean = to.lean[axis][i];
+            lean[0] = red[axis];
+            lean[1] = -red[axis] - blue[axis];
+            lean[2] = blue[axis];
+            lean[3] = 0.0f;
+        }
+        to.meanFlux[i] = node.meanFlux();
+    }
 }
 
 float quadraticForm(const InteractionList::Block& block, std::size_t i, const Vec3& d) {
     const auto& m = block.moments;
     return m[0][i] * d.x * d.x + m[1][i] * d.y * d.y + m[2][i] * d.z * d.z +
            2.0f * (m[3][i] * d.x * d.y + m[4][i] * d.x * d.z + m[5][i] * d.y * d.z);
+}
+
+Vec3 leanOf(const InteractionList::Block& block, std::size_t i, int channel) {
+    return {block.lean[0][i][channel], block.lean[1][i][channel], block.lean[2][i][channel]};
 }
 
 namespace {
@@ -79,13 +108,18 @@ Rgb evaluateOne(const KernelTable& table, const InteractionList::Block& block, s
         a = s * (m[0][i] + m[1][i] + m[2][i]);
         b = 2.0f * s * s * quadraticForm(block, i, d);
     }
+    const bool isColoured = withMoments && block.isColoured;
     const float k1 = t + a;
     const float k2 = t * t + 2.0f * (t * a + b);
     const float k3 = t * (t * t + 3.0f * t * a + 6.0f * b);
     Rgb sum;
-    for (int ch = 0; ch < 3; ++ch)
-        sum[ch] = block.flux[i][ch] *
-                  (row->c[0][ch] + k1 * row->c[1][ch] + k2 * row->c[2][ch] + k3 * row->c[3][ch]);
+    for (int ch = 0; ch < 3; ++ch) {
+        const float c1 = row->c[1][ch], c2 = row->c[2][ch], c3 = row->c[3][ch];
+        sum[ch] = block.flux[i][ch] * (row->c[0][ch] + k1 * c1 + k2 * c2 + k3 * c3);
+        if (isColoured)
+            sum[ch] -= 2.0f * s * (c1 + t * (2.0f * c2 + 3.0f * t * c3)) *
+                       glm::dot(d, leanOf(block, i, ch)) * block.meanFlux[i];
+    }
     return sum;
 }
 

@@ -20,7 +20,12 @@ public:
         float x[kBlock], y[kBlock], z[kBlock];
         float moments[6][kBlock];  ///< xx yy zz xy xz yz; untouched in a list of points
         float flux[kBlock][4];
+        /// OctreeNode::lean by axis, source and channel, and each source's mean flux: untouched
+        /// unless the block is coloured, that is, has sources whose channels lie apart.
+        float lean[3][kBlock][4];
+        float meanFlux[kBlock];
         std::size_t count = 0;
+        bool isColoured = false;
     };
 
     void clear() { used_ = 0; }
@@ -45,13 +50,20 @@ void pack(std::span<const OctreeNode> nodes, std::span<const std::uint32_t> indi
 void packScalar(std::span<const OctreeNode> nodes, std::span<const std::uint32_t> indices,
                 InteractionList::Block& to);
 
+/// Of a source of a coloured block.
+Vec3 leanOf(const InteractionList::Block& block, std::size_t i, int channel);
 /// d^T Q d of source i.
 float quadraticForm(const InteractionList::Block& block, std::size_t i, const Vec3& d);
 
-/// Adds to sums[i] the sum over the list of flux x f(|receiver - source|^2), with the second-order
-/// term of each node's moments where `withMoments`: f + f' tr Q + 2 f'' d^T Q d, primes by u = r^2.
-/// Highway picks the widest instructions of the machine at run time. Within a block of 64 sums are
-/// float, over blocks double.
+/// What packScalar() does about colour: `to` has its leans from these nodes.
+void packLeans(std::span<const OctreeNode> nodes, std::span<const std::uint32_t> indices,
+               InteractionList::Block& to);
+
+/// Adds to sums[i] the sum over the list of flux x f(|receiver - source|^2), where `withMoments`
+/// with the terms of first and second order of each node: f + f' tr Q + 2 f'' d^T Q d, primes by u
+/// = r^2, and for channels that lie elsewhere - 2 f' d lean x mean flux. Highway picks the widest
+/// instructions of the machine at run time. Within a block of 64 sums are float, over blocks
+/// double.
 void accumulate(const KernelTable& table, const InteractionList& list, bool withMoments,
                 std::span<const Vec3> receivers, std::span<DRgb> sums);
 /// The same in plain C++: the reference that the vector code is tested against.

@@ -100,6 +100,35 @@ HWY_ATTR void weigh(const KernelTable& table, const InteractionList::Block& bloc
     }
 }
 
+// Of one source, all channels in one vector: lean along s (centre - source).
+HWY_ATTR hn::Vec<hn::FixedTag<float, 4> > leaning(const InteractionList::Block& block,
+                                                  const Steps& steps, std::size_t i) {
+    const hn::FixedTag<float, 4> d;
+    auto along = hn::Mul(hn::Set(d, steps.x[i]), hn::Load(d, block.lean[0][i]));
+    along = hn::MulAdd(hn::Set(d, steps.y[i]), hn::Load(d, block.lean[1][i]), along);
+    return hn::MulAdd(hn::Set(d, steps.z[i]), hn::Load(d, block.lean[2][i]), along);
+}
+
+// What a block's channels add that lie elsewhere than the centroids: - 2 f' d lean x mean flux.
+HWY_ATTR void reduceLeans(const KernelTable& table, const InteractionList::Block& block,
+                          const Weights& w, const Steps& steps, DRgb& sum) {
+    const hn::FixedTag<float, 4> d;
+    const auto two = hn::Set(d, 2.0f), three = hn::Set(d, 3.0f);
+    auto half = hn::Zero(d);
+    for (std::size_t i = 0; i < block.count; ++i) {
+        const auto& c = table.rows()[w.row[i]].c;
+        const auto t = hn::Set(d, steps.t[i]);
+        const auto bent =
+            hn::MulAdd(hn::Mul(three, t), hn::Load(d, c[3]), hn::Mul(two, hn::Load(d, c[2])));
+        const auto slope = hn::MulAdd(t, bent, hn::Load(d, c[1]));
+        half = hn::MulAdd(hn::Mul(slope, hn::Set(d, block.meanFlux[i])), leaning(block, steps, i),
+                          half);
+    }
+    alignas(16) float total[4];
+    hn::Store(hn::Mul(two, half), d, total);
+    sum -= DRgb(total[0], total[1], total[2]);
+}
+
 // Sum of flux x (c0 + k1 c1 + k2 c2 + k3 c3), all channels of a source in one vector.
 HWY_ATTR void reduce(const KernelTable& table, const InteractionList::Block& block,
                      const Weights& w, DRgb& sum) {
@@ -128,10 +157,13 @@ template <bool kWithMoments>
 HWY_ATTR void accumulateList(const KernelTable& table, const InteractionList& list,
                              std::span<const Vec3> receivers, std::span<DRgb> sums) {
     Weights weights;
+    Steps steps;
     for (const InteractionList::Block& block : list.blocks())
         for (std::size_t r = 0; r < receivers.size(); ++r) {
-            weigh<kWithMoments>(table, block, receivers[r], weights);
+            const bool isColoured = kWithMoments && block.isColoured;
+            weigh<kWithMoments>(table, block, receivers[r], weights, isColoured ? &steps : nullptr);
             reduce(table, block, weights, sums[r]);
+            if (isColoured) reduceLeans(table, block, weights, steps, sums[r]);
         }
 }
 
@@ -187,6 +219,40 @@ HWY_ATTR void expandBlock(const KernelTable& table, const InteractionList::Block
     add(yz, to.hessian[5]);
 }
 
+// What leaning channels add to an expansion: their value, and its slope.
+HWY_ATTR void expandLeans(const KernelTable& table, const InteractionList::Block& block,
+                          const Weights& w, const Steps& steps, LocalExpansion& to) {
+    reduceLeans(table, block, w, steps, to.value);
+    const hn::FixedTag<float, 4> d;
+    const auto two = hn::Set(d, 2.0f), six = hn::Set(d, 6.0f), three = hn::Set(d, 3.0f);
+    auto gx = hn::Zero(d), gy = hn::Zero(d), gz = hn::Zero(d);
+    for (std::size_t i = 0; i < block.count; ++i) {
+        const auto& c = table.rows()[w.row[i]].c;
+        const auto t = hn::Set(d, steps.t[i]), c3 = hn::Load(d, c[3]);
+        const auto c2 = hn::Mul(two, hn::Load(d, c[2]));
+        const auto flux = hn::Set(d, block.meanFlux[i]);
+        const auto byT =
+            hn::Mul(flux, hn::MulAdd(t, hn::MulAdd(hn::Mul(three, t), c3, c2), hn::Load(d, c[1])));
+        const auto byTT = hn::Mul(flux, hn::MulAdd(hn::Mul(six, t), c3, c2));
+        const auto straight = hn::Mul(byT, hn::Set(d, 2.0f * steps.s[i]));
+        const auto bent = hn::Mul(hn::Mul(hn::Set(d, 4.0f), byTT), leaning(block, steps, i));
+        gx = hn::MulAdd(bent, hn::Set(d, steps.x[i]),
+                        hn::MulAdd(straight, hn::Load(d, block.lean[0][i]), gx));
+        gy = hn::MulAdd(bent, hn::Set(d, steps.y[i]),
+                        hn::MulAdd(straight, hn::Load(d, block.lean[1][i]), gy));
+        gz = hn::MulAdd(bent, hn::Set(d, steps.z[i]),
+                        hn::MulAdd(straight, hn::Load(d, block.lean[2][i]), gz));
+    }
+    const auto take = [&](auto v, DRgb& from) {
+        alignas(16) float lanes[4];
+        hn::Store(v, d, lanes);
+        from -= DRgb(lanes[0], lanes[1], lanes[2]);
+    };
+    take(gx, to.gradient[0]);
+    take(gy, to.gradient[1]);
+    take(gz, to.gradient[2]);
+}
+
 HWY_ATTR void expandAny(const KernelTable& table, const InteractionList& nodes,
                         LocalExpansion& expansion) {
     Weights weights;
@@ -194,6 +260,7 @@ HWY_ATTR void expandAny(const KernelTable& table, const InteractionList& nodes,
     for (const InteractionList::Block& block : nodes.blocks()) {
         weigh<true>(table, block, expansion.centre, weights, &steps);
         expandBlock(table, block, weights, steps, expansion);
+        if (block.isColoured) expandLeans(table, block, weights, steps, expansion);
     }
 }
 

@@ -22,6 +22,24 @@ LocalExpansion LocalExpansion::movedTo(const Vec3& place) const {
 
 namespace {
 
+// What channels add that lie elsewhere than the centroid. `d`: from there to the expansion's
+// centre.
+void addLeans(const InteractionList::Block& block, std::size_t i, const Vec3& d,
+              const KernelTable::Place& place, LocalExpansion& to) {
+    const auto [row, t, s] = place;
+    for (int k = 0; k < 3; ++k) {
+        const float c1 = row->c[1][k], c2 = row->c[2][k], c3 = row->c[3][k];
+        const float slope = block.meanFlux[i] * s * (c1 + t * (2.0f * c2 + 3.0f * t * c3));
+        const float bend = block.meanFlux[i] * s * s * (2.0f * c2 + 6.0f * t * c3);
+        const Vec3 lean = leanOf(block, i, k);
+        const float along = glm::dot(d, lean);
+        to.value[k] -= static_cast<double>(2.0f * slope * along);
+        for (int axis = 0; axis < 3; ++axis)
+            to.gradient[static_cast<std::size_t>(axis)][k] -=
+                static_cast<double>(2.0f * slope * lean[axis] + 4.0f * bend * along * d[axis]);
+    }
+}
+
 void addSource(const KernelTable& table, const InteractionList::Block& block, std::size_t i,
                LocalExpansion& to) {
     const Vec3 d = to.centre - Vec3(block.x[i], block.y[i], block.z[i]);
@@ -36,6 +54,7 @@ void addSource(const KernelTable& table, const InteractionList::Block& block, st
         slope[k] = flux * s * (c1 + t * (2.0f * c2 + 3.0f * t * c3));
         bend[k] = flux * s * s * (2.0f * c2 + 6.0f * t * c3);
     }
+    if (block.isColoured) addLeans(block, i, d, {row, t, s}, to);
     to.value += DRgb(f + slope * trace + 2.0f * bend * along);
     for (int k = 0; k < 3; ++k) {
         const auto n = static_cast<std::size_t>(k);

@@ -32,8 +32,8 @@ namespace hn = hwy::HWY_NAMESPACE;
 constexpr std::size_t kNodeFloats = sizeof(OctreeNode) / sizeof(float);
 static_assert(offsetof(OctreeNode, flux) == 3 * sizeof(float) &&
               offsetof(OctreeNode, moments) == 7 * sizeof(float) &&
-              offsetof(OctreeNode, chromaticOffset) == 13 * sizeof(float) &&
-              offsetof(OctreeNode, lo) == 16 * sizeof(float) &&
+              offsetof(OctreeNode, chromaticMoment) == 13 * sizeof(float) &&
+              offsetof(OctreeNode, lean) == 16 * sizeof(float) &&
               offsetof(OctreeNode, count) == 23 * sizeof(float));
 
 // Four floats of each of the records, from each of the columns on, to four arrays a column: a
@@ -85,14 +85,14 @@ HWY_ATTR void packAny(std::span<const OctreeNode> nodes, std::span<const std::ui
         const auto flux = hn::LoadU(d, records + kNodeFloats * indices[i] + 3);
         hn::Store(hn::IfThenElseZero(isChannel, flux), d, to.flux[i]);
     }
+    packLeans(nodes, indices, to);
 }
 
 // What the nodes have to be judged by, each quantity a row.
 struct alignas(64) Judged {
     float x[kMostJudged], y[kMostJudged], z[kMostJudged];
     float flux[3][kMostJudged];
-    float offset[kMostJudged], difference[kMostJudged], extent[kMostJudged];
-    float lo[3][kMostJudged], hi[3][kMostJudged];
+    float difference[kMostJudged], extent[kMostJudged];
     float radius[kMostJudged], size[kMostJudged];          // count, the bits of a float
     std::uint32_t row[kMostJudged];                        // of the bounds
     float bounds[KernelTable::kBoundFloats][kMostJudged];  // [3 derivative + channel]
@@ -109,7 +109,7 @@ HWY_ATTR std::uint64_t bitsOf(D d, Mask mask) {
     return bits;
 }
 
-// Fills all but bounds; true if no node's channels differ.
+// Finds the rows of the bounds; true if no node's channels differ.
 HWY_ATTR bool measure(const KernelTable& table, const CellTest& cell, std::size_t count,
                       Judged& j) {
     const hn::CappedTag<float, kMostJudged> d;
@@ -121,23 +121,16 @@ HWY_ATTR bool measure(const KernelTable& table, const CellTest& cell, std::size_
     auto colour = hn::Zero(d);
     for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
         const auto x = hn::Load(d, j.x + i), y = hn::Load(d, j.y + i), z = hn::Load(d, j.z + i);
-        const auto far = [&](auto centre, int k) {
-            return hn::Max(hn::Sub(centre, hn::Load(d, j.lo[k] + i)),
-                           hn::Sub(hn::Load(d, j.hi[k] + i), centre));
-        };
-        const auto fx = far(x, 0), fy = far(y, 1), fz = far(z, 2);
-        const auto radius = hn::Sqrt(hn::MulAdd(fx, fx, hn::MulAdd(fy, fy, hn::Mul(fz, fz))));
-        hn::Store(radius, d, j.radius + i);
         const auto dx = hn::Sub(x, hn::Set(d, cell.centre.x)),
                    dy = hn::Sub(y, hn::Set(d, cell.centre.y)),
                    dz = hn::Sub(z, hn::Set(d, cell.centre.z));
         const auto distance = hn::Sqrt(hn::MulAdd(dx, dx, hn::MulAdd(dy, dy, hn::Mul(dz, dz))));
-        const auto away = hn::Add(radius, hn::Set(d, cell.radius));
+        const auto away = hn::Add(hn::Load(d, j.radius + i), hn::Set(d, cell.radius));
         const auto nearest = hn::Max(hn::Zero(d), hn::Sub(distance, away));
         const auto bits = hn::BitCast(di, hn::MulAdd(nearest, nearest, u0));
         const auto row = hn::Min(hn::Sub(hn::ShiftRight<KernelTable::kShift>(bits), base), lastRow);
         hn::Store(hn::BitCast(du, row), du, j.row + i);
-        colour = hn::Add(colour, hn::Add(hn::Load(d, j.offset + i), hn::Load(d, j.difference + i)));
+        colour = hn::Add(colour, hn::Load(d, j.difference + i));
     }
     return hn::AllTrue(d, hn::Eq(colour, hn::Zero(d)));
 }
@@ -152,12 +145,11 @@ HWY_ATTR Verdict judgeAny(const KernelTable& table, std::span<const OctreeNode> 
     std::uint32_t index[kMostJudged];
     const std::size_t whole = fillUp(indices, lanes, index);
     Judged j;
-    readColumns(&nodes.front().centroid.x, kNodeFloats, index, whole, {0, 4, 12, 16, 20},
+    readColumns(&nodes.front().centroid.x, kNodeFloats, index, whole, {0, 4, 12, 20},
                 {{j.x, j.y, j.z, j.flux[0]},
                  {j.flux[1], j.flux[2], j.unused, j.unused},
-                 {j.unused, j.offset, j.difference, j.extent},
-                 {j.lo[0], j.lo[1], j.lo[2], j.hi[0]},
-                 {j.hi[1], j.hi[2], j.unused, j.size}});
+                 {j.unused, j.difference, j.extent, j.radius},
+                 {j.unused, j.unused, j.unused, j.size}});
     const bool isGrey = measure(table, cell, whole, j);
     auto& b = j.bounds;
     const float* rows = table.boundRows();
@@ -180,31 +172,27 @@ HWY_ATTR Verdict judgeAny(const KernelTable& table, std::span<const OctreeNode> 
             hn::MulSub(hn::Mul(both, hn::Set(d, kReachWeight / 6.0f)), hn::Mul(both, both),
                        hn::Mul(hn::Mul(extent, hn::Set(d, (kReachWeight - 1.0f) / 6.0f)),
                                hn::Mul(extent, extent)));
-        const auto offset = hn::Load(d, j.offset + i);
-        const auto second =
-            hn::MulAdd(hn::Load(d, j.difference + i), hn::Set(d, 0.5f), hn::Mul(offset, reach));
+        const auto second = hn::Mul(hn::Load(d, j.difference + i), hn::Set(d, 0.5f));
         const auto isThere =
             hn::Lt(hn::Iota(d, static_cast<float>(i)), hn::Set(d, static_cast<float>(count)));
         auto isDark = isThere, isTaken = isThere;
-        decltype(hn::Zero(d)) c3[3], c1[3];
+        decltype(hn::Zero(d)) c3[3], c2[3];
         for (int c = 0; c < 3; ++c) {
             const auto flux = hn::Load(d, j.flux[c] + i);
             const auto threshold = hn::Set(d, cell.threshold[c]);
             isDark = hn::And(isDark, hn::Le(hn::Mul(flux, bound(0, c)),
                                             hn::Mul(threshold, hn::Set(d, kNegligibleShare))));
             c3[c] = hn::Mul(flux, hn::Mul(bound(3, c), third));
-            c1[c] = isGrey ? zero
-                           : hn::Mul(flux,
-                                     hn::MulAdd(bound(2, c), second, hn::Mul(bound(1, c), offset)));
+            c2[c] = isGrey ? zero : hn::Mul(flux, hn::Mul(bound(2, c), second));
             isTaken = hn::And(
-                isTaken, hn::Le(hn::MulAdd(c1[c], hn::Set(d, kSteadyWeight), c3[c]), threshold));
+                isTaken, hn::Le(hn::MulAdd(c2[c], hn::Set(d, kSteadyWeight), c3[c]), threshold));
         }
         isTaken = hn::AndNot(isDark, isTaken);
         for (int c = 0; c < 3; ++c) {
             const auto scale = hn::Set(d, scales[c]);
             const auto part = hn::IfThenElseZero(isTaken, hn::Mul(c3[c], scale));
             changing[c] = hn::MulAdd(part, part, changing[c]);
-            steady[c] = hn::Add(steady[c], hn::IfThenElseZero(isTaken, hn::Mul(c1[c], scale)));
+            steady[c] = hn::Add(steady[c], hn::IfThenElseZero(isTaken, hn::Mul(c2[c], scale)));
         }
         const auto isLeaf =
             hn::RebindMask(d, hn::Lt(hn::BitCast(di, hn::Load(d, j.size + i)), hn::Zero(di)));

@@ -14,6 +14,7 @@
 namespace sss {
 namespace {
 
+constexpr double kRoundedUp = 1 + 1e-7;   // so that no point is outside
 constexpr std::size_t kLargeNodes = 512;  // the root and about three levels below
 
 struct Range {
@@ -91,8 +92,12 @@ void summarise(OctreeNode& node, const CloudView& cloud, const Range& range) {
     node.centroid = glm::clamp(Vec3(centroid), box.lo, box.hi);
     node.flux = Rgb(fluxSum);
     node.areaMm2 = static_cast<float>(area);
-    node.lo = box.lo;
-    node.hi = box.hi;
+    double farthest = 0;
+    for (std::uint32_t i = range.begin; i < range.end; ++i) {
+        const DVec3 d = DVec3(cloud.points[i].position) - DVec3(node.centroid);
+        farthest = std::max(farthest, glm::dot(d, d));
+    }
+    node.radius = static_cast<float>(std::sqrt(farthest) * kRoundedUp);
     if (!(total > 0)) return;
 
     Moments mean;
@@ -105,10 +110,15 @@ void summarise(OctreeNode& node, const CloudView& cloud, const Range& range) {
     }
     for (std::size_t k = 0; k < 6; ++k)
         node.moments[k] = static_cast<float>(mean.second[k] / mean.weight);
-    double offset = 0, moment = 0, third = 0;
-    for (const Moments& m : channels) {
+    // Under white light all channels lie where the mean lies, which is the centroid but for
+    // rounding.
+    std::array<DVec3, 3> leans;
+    double lean = 0, moment = 0, third = 0;
+    for (std::size_t c = 0; c < 3; ++c) {
+        const Moments& m = channels[c];
+        leans[c] = (m.first - mean.first * (m.weight / mean.weight)) / mean.weight;
+        lean = std::max(lean, glm::length(leans[c]));
         if (!(m.weight > 0)) continue;
-        offset = std::max(offset, glm::length(m.first) / m.weight);
         third = std::max(third, m.third / m.weight);
         std::array<double, 6> difference;
         for (std::size_t k = 0; k < 6; ++k)
@@ -118,7 +128,10 @@ void summarise(OctreeNode& node, const CloudView& cloud, const Range& range) {
     // Rounding is not colour: under white light both are 0.
     constexpr double kRounding = 1e-9;
     const double extent = std::cbrt(third);
-    node.chromaticOffset = offset > kRounding * extent ? static_cast<float>(offset) : 0.0f;
+    if (lean > kRounding * extent) {
+        node.lean[0] = Vec3(leans[0]);
+        node.lean[1] = Vec3(leans[2]);
+    }
     node.chromaticMoment = moment > kRounding * extent * extent ? static_cast<float>(moment) : 0.0f;
     node.cubicMean = static_cast<float>(extent);
 }

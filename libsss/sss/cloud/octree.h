@@ -15,19 +15,24 @@ struct OctreeNode {
     Rgb flux{0.0f};
     float areaMm2 = 0;
     float moments[6]{};         ///< xx yy zz xy xz yz of sum w (p-c)(p-c)^T / sum w, mm^2
-    float chromaticOffset = 0;  ///< largest distance of a channel's own centroid from `centroid`
     float chromaticMoment = 0;  ///< largest norm of (a channel's second moment - `moments`), mm^2
     float cubicMean = 0;        ///< cube root of the largest over channels of
                                 ///< sum w |p-c|^3 / sum w, mm: how far out the flux lies
-    Vec3 lo{}, hi{};            ///< bounds of the points
-    std::uint32_t first = 0;    ///< first child (inner node) or first point (leaf)
-    std::uint32_t count = 0;    ///< children of an inner node, or kLeaf | points of a leaf
+    float radius = 0;           ///< of the sphere around the centroid that holds all points, mm
+    Vec3 lean[2]{};           ///< of red and blue: sum of the channel's flux x (p - centroid) over
+                              ///< the mean flux, mm; with green's they add up to 0
+    std::uint32_t first = 0;  ///< first child (inner node) or first point (leaf)
+    std::uint32_t count = 0;  ///< children of an inner node, or kLeaf | points of a leaf
 
     static constexpr std::uint32_t kLeaf = 0x80000000u;
     bool isLeaf() const { return (count & kLeaf) != 0; }
     std::uint32_t size() const { return count & ~kLeaf; }
-    /// Radius of the sphere around the centroid that holds all points.
-    float radius() const { return glm::length(glm::max(centroid - lo, hi - centroid)); }
+    /// Mean of the flux over the channels.
+    float meanFlux() const {
+        constexpr float kThird = 1.0f / 3.0f;
+        return kThird * flux.x + kThird * flux.y + kThird * flux.z;
+    }
+    bool isColoured() const { return !isZero(lean[0]) || !isZero(lean[1]); }
 };
 static_assert(sizeof(OctreeNode) == 96);
 

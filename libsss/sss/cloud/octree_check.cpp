@@ -26,11 +26,11 @@ bool isSound(const SurfacePoint& p) {
 }
 
 bool areNumbersSound(const OctreeNode& node) {
-    float sum = excess(node.areaMm2) + excess(node.chromaticOffset) + excess(node.chromaticMoment) +
-                excess(node.cubicMean);
+    float sum = excess(node.areaMm2) + excess(node.chromaticMoment) + excess(node.cubicMean);
     for (const float moment : node.moments) sum += excess(moment);
     return sum == 0.0f && node.areaMm2 >= 0 && isLight(node.flux) && isNear(node.centroid) &&
-           isNear(node.lo) && isNear(node.hi);
+           node.radius >= 0 && node.radius <= 4.0f * kFarthest && isNear(node.lean[0]) &&
+           isNear(node.lean[1]);
 }
 
 // No branch, so that the loop runs at the speed of memory.

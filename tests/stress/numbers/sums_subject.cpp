@@ -43,9 +43,9 @@ void checkNodes(const HardCloud& cloud, Row& row, const std::string& what) {
         row.add(flux[c] > 0 ? std::abs(double{root.flux[c]} / flux[c] - 1) : double{root.flux[c]},
                 where);
     for (const OctreeNode& node : cloud.nodes) {
-        bool isSound = isFinite(node.centroid) && isFinite(node.flux) && isFinite(node.lo) &&
-                       isFinite(node.hi) && std::isfinite(node.cubicMean) &&
-                       std::isfinite(node.chromaticOffset) && std::isfinite(node.chromaticMoment);
+        bool isSound = isFinite(node.centroid) && isFinite(node.flux) && isFinite(node.lean[0]) &&
+                       isFinite(node.lean[1]) && std::isfinite(node.radius) &&
+                       std::isfinite(node.cubicMean) && std::isfinite(node.chromaticMoment);
         for (const float moment : node.moments) isSound &= std::isfinite(moment);
         row.expect(isSound, where);
     }

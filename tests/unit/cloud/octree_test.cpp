@@ -51,18 +51,16 @@ void expectSound(const Cloud& cloud, const std::vector<OctreeNode>& nodes) {
     std::vector<int> parents(nodes.size(), 0);
     for (std::size_t n = 0; n < nodes.size(); ++n) {
         const OctreeNode& node = nodes[n];
-        for (int k = 0; k < 3; ++k) {
-            ASSERT_LE(node.lo[k], node.centroid[k]);
-            ASSERT_GE(node.hi[k], node.centroid[k]);
-        }
+        const auto expectInside = [&](const Vec3& place, float more) {
+            ASSERT_LE(glm::length(DVec3(place) - DVec3(node.centroid)) - more, node.radius);
+        };
         ASSERT_TRUE(isFinite(node.centroid) && isFinite(node.flux));
         ASSERT_GT(node.size(), 0u);
         if (node.isLeaf()) {
             for (std::uint32_t i = node.first; i < node.first + node.size(); ++i) {
                 ASSERT_LT(i, cloud.points.size());
                 ++owners[i];
-                ASSERT_EQ(glm::clamp(cloud.points[i].position, node.lo, node.hi),
-                          cloud.points[i].position);
+                expectInside(cloud.points[i].position, 0);
             }
             continue;
         }
@@ -75,8 +73,7 @@ void expectSound(const Cloud& cloud, const std::vector<OctreeNode>& nodes) {
             ++parents[k];
             flux += DRgb(nodes[k].flux);
             area += static_cast<double>(nodes[k].areaMm2);
-            ASSERT_EQ(glm::min(nodes[k].lo, node.lo), node.lo);
-            ASSERT_EQ(glm::max(nodes[k].hi, node.hi), node.hi);
+            expectInside(nodes[k].centroid, nodes[k].radius);
         }
         EXPECT_NEAR(area, static_cast<double>(node.areaMm2), 2e-7 * area);
         for (int c = 0; c < 3; ++c)
@@ -141,15 +138,26 @@ TEST(Octree, MomentsOfASmallNodeAreThoseOfItsPoints) {
             offset[c] += f * d;
         }
     }
-    double largest = 0, farthest = 0;
-    for (std::size_t c = 0; c < 3; ++c) {
-        largest = std::max(largest, third[c] / total[c]);
-        farthest = std::max(farthest, glm::length(offset[c]) / total[c]);
-    }
+    double largest = 0;
+    for (std::size_t c = 0; c < 3; ++c) largest = std::max(largest, third[c] / total[c]);
     EXPECT_NEAR(static_cast<double>(node.moments[0]), xx, 1e-5 * xx);
     EXPECT_NEAR(static_cast<double>(node.moments[5]), yz, 1e-5 * xx);
     EXPECT_NEAR(std::pow(static_cast<double>(node.cubicMean), 3), largest, 1e-5 * largest);
-    EXPECT_NEAR(static_cast<double>(node.chromaticOffset), farthest, 1e-4 * farthest);
+    const double size = glm::length(offset[0]) / weight;
+    EXPECT_LT(glm::length(DVec3(node.lean[0]) - offset[0] / weight), 1e-5 * size);
+    EXPECT_LT(glm::length(DVec3(node.lean[1]) - offset[2] / weight), 1e-5 * size);
+    EXPECT_LT(glm::length(offset[0] + offset[1] + offset[2]) / weight, 1e-5 * size);
+    EXPECT_TRUE(node.isColoured());
+}
+
+TEST(Octree, LightOfOneColourLeansNowhere) {
+    Cloud cloud = randomCloud(2000, 5);
+    Rng rng(6);
+    for (Rgb& e : cloud.irradiance) e = Rgb(0.9f, 0.7f, 0.1f) * rng.uniform();
+    for (const OctreeNode& node : buildOctree(cloud.view()))
+        for (const Vec3& lean : node.lean) EXPECT_LE(glm::length(lean), 1e-6f * node.radius);
+    for (Rgb& e : cloud.irradiance) e = Rgb(rng.uniform());
+    for (const OctreeNode& node : buildOctree(cloud.view())) EXPECT_FALSE(node.isColoured());
 }
 
 TEST(Octree, SameNodesInAnyOrderOfTheInput) {
@@ -173,7 +181,7 @@ TEST(Octree, CoincidentPointsShareALeaf) {
     expectSound(cloud, nodes);
     ASSERT_EQ(nodes.size(), 1u);
     EXPECT_FLOAT_EQ(nodes[0].flux.x, 250.0f);
-    EXPECT_EQ(nodes[0].radius(), 0.0f);
+    EXPECT_EQ(nodes[0].radius, 0.0f);
 
     // With others around them.
     for (int i = 0; i < 50; ++i) cloud.add({0.1f * static_cast<float>(i), 2, 3}, 1.0f, Rgb(2.0f));

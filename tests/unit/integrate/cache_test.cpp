@@ -303,8 +303,8 @@ TEST(CloudCache, OctreeThatDoesNotFitIsRefused) {
         [](Nodes& n) { n[1].first = n[0].first; },  // the same children twice
         [](Nodes& n) { n.back().count -= 1; },      // a point that nobody has
         [](Nodes& n) { n[3].centroid.y = NAN; },
-        [](Nodes& n) { n[3].hi.x = INFINITY; },
-        [](Nodes& n) { n[3].lo.y = 1e30f; },  // its distance squared would be infinite
+        [](Nodes& n) { n[3].radius = INFINITY; },
+        [](Nodes& n) { n[3].centroid.y = 1e30f; },  // its distance squared would be infinite
         [](Nodes& n) { n[3].flux.z = -1; },
     };
     for (const auto& damage : damages) {
