@@ -26,7 +26,7 @@ Verdict judgeScalar(const KernelTable& table, std::span<const OctreeNode> nodes,
             const float flux = node.flux[c], threshold = cell.threshold[c];
             isDark &= flux * bound.derivative[0][c] <= threshold * kNegligibleShare;
             changing[c] = flux * (bound.derivative[3][c] * third);
-            steady[c] = flux * (bound.derivative[2][c] * second);
+            steady[c] = chromaticFlux(node.flux, c) * (bound.derivative[2][c] * second);
             isTaken &= changing[c] + steady[c] * kSteadyWeight <= threshold;
         }
         if (isDark) verdict.dark |= bit;

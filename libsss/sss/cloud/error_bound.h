@@ -1,6 +1,8 @@
 #pragma once
 #include "sss/base/vec.h"
 
+#include <algorithm>
+
 namespace sss {
 
 // What a node leaves out of the sum where it is taken as its moments has two parts, per channel:
@@ -35,6 +37,12 @@ inline float thirdOrder(float extent, float reach) {
     const float both = extent + reach;
     return (kReachWeight * both * both * both - (kReachWeight - 1.0f) * extent * extent * extent) *
            (1.0f / 6.0f);
+}
+
+/// The flux that a channel's second moment can differ by, in units of the largest difference: at
+/// most its own, and at most the others' together, since differences weighted by flux add up to 0.
+inline float chromaticFlux(const Rgb& flux, int channel) {
+    return std::min(flux[channel], flux[(channel + 1) % 3] + flux[(channel + 2) % 3]);
 }
 
 /// What a node may leave out relative to M, at a tolerance.

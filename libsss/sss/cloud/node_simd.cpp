@@ -183,7 +183,10 @@ HWY_ATTR Verdict judgeAny(const KernelTable& table, std::span<const OctreeNode> 
             isDark = hn::And(isDark, hn::Le(hn::Mul(flux, bound(0, c)),
                                             hn::Mul(threshold, hn::Set(d, kNegligibleShare))));
             c3[c] = hn::Mul(flux, hn::Mul(bound(3, c), third));
-            c2[c] = isGrey ? zero : hn::Mul(flux, hn::Mul(bound(2, c), second));
+            // chromaticFlux()
+            const auto others =
+                hn::Add(hn::Load(d, j.flux[(c + 1) % 3] + i), hn::Load(d, j.flux[(c + 2) % 3] + i));
+            c2[c] = isGrey ? zero : hn::Mul(hn::Min(flux, others), hn::Mul(bound(2, c), second));
             isTaken = hn::And(
                 isTaken, hn::Le(hn::MulAdd(c2[c], hn::Set(d, kSteadyWeight), c3[c]), threshold));
         }
