@@ -12,7 +12,7 @@
 namespace sss {
 namespace {
 
-constexpr std::size_t kGrain = 16;  // parts
+constexpr std::size_t kPartsPerTask = 16;
 
 }  // namespace
 
@@ -38,7 +38,7 @@ void SectionParts::check(std::size_t index) const {
 }
 
 void SectionParts::checkAll() const {
-    parallelFor(count(), kGrain, [&](std::size_t begin, std::size_t end) {
+    parallelFor(count(), kPartsPerTask, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) check(i);
     });
 }

@@ -7,8 +7,7 @@
 namespace sss {
 namespace {
 
-constexpr std::size_t kGrain = 1 << 14;  // elements: some parts
-constexpr std::size_t kRoot = 0;
+constexpr std::size_t kElementsPerTask = 1 << 14;  // some parts
 
 template <typename T>
 CheckedParts unchecked(const UncheckedSection<T>& section) {
@@ -34,7 +33,7 @@ CloudGuard::CloudGuard(const CloudSections& sections)
         sections.nodesBefore.size() != sections.nodes.parts.count() ||
         !isSound(sections.nodesBefore, size_))
         refuse();
-    if (size_.nodes > 0) needNodes(kRoot, 1);
+    if (size_.nodes > 0) needNodes(0, 1);
 }
 
 void CloudGuard::refuse() const {
@@ -64,9 +63,9 @@ void CloudGuard::checkNodes(std::size_t part) const {
 }
 
 void CloudGuard::needAll() const {
-    parallelFor(size_.points, kGrain,
+    parallelFor(size_.points, kElementsPerTask,
                 [&](std::size_t begin, std::size_t end) { needPoints(begin, end - begin); });
-    parallelFor(size_.nodes, kGrain,
+    parallelFor(size_.nodes, kElementsPerTask,
                 [&](std::size_t begin, std::size_t end) { needNodes(begin, end - begin); });
 }
 
