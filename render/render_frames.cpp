@@ -80,7 +80,7 @@ private:
             row.set("seconds", stats_.wallSeconds() - wall)
                 .set("cpuSeconds", stats_.cpuSeconds() - cpu)
                 .set("stages", toJson(stages))
-                .set("cacheBytesNeeded", chain_.cacheBytesRead());
+                .set("cacheBytesNeeded", chain_.cacheBytesNeeded());
             if (options_.explain)
                 for (const StageRow& stage : stages)
                     fmt::print("frame {}: {}\n", frame.number, sentenceOf(stage));

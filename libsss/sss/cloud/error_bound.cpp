@@ -9,6 +9,10 @@ namespace {
 // are of third order, with signs that change from node to node: their bounds are added in
 // quadrature, and the root of that sum may be this much above the tolerance.
 constexpr double kBoundSlack = 12.0;
+// The same for what channels leave out: of one sign at most, but not of the worst direction
+// everywhere. Light that is red on one half of a body and blue on the other keeps its tolerance at
+// 10 as well.
+constexpr double kSteadySlack = 2.5;
 // The share of the tolerance that one node may take at tolerance 0.01. The finer the sum the more
 // nodes there are, about by this power of the tolerance.
 constexpr double kNodeShare = 0.6, kSharePower = 0.35;
@@ -24,7 +28,7 @@ void ErrorBound::add(const ErrorBound& other) {
     steady += other.steady;
 }
 
-DRgb ErrorBound::total() const { return glm::sqrt(changing) / kBoundSlack + steady; }
+DRgb ErrorBound::total() const { return glm::sqrt(changing) / kBoundSlack + steady / kSteadySlack; }
 
 double nodeShare(double tolerance) {
     return tolerance * kNodeShare * std::pow(tolerance / 0.01, kSharePower);

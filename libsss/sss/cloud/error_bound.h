@@ -14,7 +14,7 @@ namespace sss {
 //   light here, blue there); these are added as they stand and weigh more in a node's share. What
 //   is of first order, that red lies elsewhere than blue, is not left out (OctreeNode::lean).
 
-inline constexpr float kSteadyWeight = 10.0f;
+inline constexpr float kSteadyWeight = 4.0f;
 /// At 1 a box of faces far larger than the mean free path misses a tolerance of 1 % at 1 % of the
 /// receivers, at 2 at 0.3 %, at 4 nowhere.
 inline constexpr float kReachWeight = 4.0f;

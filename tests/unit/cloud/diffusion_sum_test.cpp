@@ -110,6 +110,32 @@ TEST(DiffusionSum, KeepsItsTolerance) {
     }
 }
 
+// A red lamp on one side, a blue one on the other and a little sky, against the same in white.
+TEST(DiffusionSum, ColouredLightCostsLittleMoreThanWhite) {
+    const Optics optics("marble");
+    const double l = optics.smallestMfp();
+    const TriangleMesh mesh = makeSphere(18 * l);
+    const std::vector<Vec3> receivers = placesOn(mesh, 512, 4);
+    const auto costUnder = [&](const Rgb& left, const Rgb& right) {
+        const LitCloud cloud(mesh, 0.75 * l, [&](const Vec3& p) {
+            const float x = glm::normalize(p).x;
+            return Rgb(0.02f) + left * std::max(0.0f, -x) + right * std::max(0.0f, x);
+        });
+        const KernelTable table = cloud.table(optics, mesh.bounds().diagonal());
+        const DiffusionSum sum(cloud.view(), cloud.nodes, table);
+        std::vector<Rgb> out(receivers.size());
+        DiffusionSum::Scratch scratch;
+        SumCounts counts;
+        for (std::size_t i = 0; i < receivers.size(); i += 32)
+            sum.evaluate(std::span(receivers).subspan(i, 32), 0.01, std::span(out).subspan(i, 32),
+                         scratch, counts);
+        return static_cast<double>(counts.interactions());
+    };
+    const double white = costUnder(Rgb(1.0f), Rgb(1.0f));
+    EXPECT_LT(costUnder({1, 0.03f, 0.03f}, {0.03f, 0.03f, 1}), 1.5 * white);
+    EXPECT_LT(costUnder({1, 0, 0}, {0, 0, 1}), 2 * white);
+}
+
 TEST(DiffusionSum, WithoutToleranceEqualsBruteForce) {
     for (const char* medium : {"marble", "ketchup"}) {
         const Optics optics(medium);
