@@ -3,6 +3,7 @@
 #include "sss/base/error.h"
 #include "sss/base/parallel.h"
 #include "sss/cloud/cache_format.h"
+#include "sss/cloud/mapped_file.h"
 
 #include <fmt/core.h>
 
@@ -33,11 +34,13 @@ std::span<const std::byte> SectionParts::part(std::size_t index) const {
 }
 
 void SectionParts::check(std::size_t index) const {
+    readSoon(part(index));
     if (checksum(part(index)) != checksums_[index])
         refuse(fmt::format("section '{}' of body {} is damaged (checksum)", kind_, body_));
 }
 
 void SectionParts::checkAll() const {
+    readSoon(bytes_);
     parallelFor(count(), kPartsPerTask, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) check(i);
     });

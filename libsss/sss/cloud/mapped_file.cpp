@@ -9,6 +9,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <cstdint>
 #include <cstring>
 #include <utility>
 
@@ -44,6 +45,7 @@ MappedFile::MappedFile(const std::filesystem::path& path) {
     void* data = mmap(nullptr, size, PROT_READ, MAP_PRIVATE, file.number, 0);
     if (data == MAP_FAILED) fail(path, errno);
     bytes_ = {static_cast<const std::byte*>(data), size};
+    madvise(data, size, MADV_RANDOM);  // else a page brings up to a megabyte around it
 }
 
 MappedFile::~MappedFile() {
@@ -55,6 +57,15 @@ MappedFile::MappedFile(MappedFile&& other) noexcept : bytes_(std::exchange(other
 MappedFile& MappedFile::operator=(MappedFile&& other) noexcept {
     std::swap(bytes_, other.bytes_);
     return *this;
+}
+
+void readSoon(std::span<const std::byte> bytes) {
+    if (bytes.empty()) return;
+    const auto page = static_cast<std::uintptr_t>(sysconf(_SC_PAGESIZE));
+    const auto begin = reinterpret_cast<std::uintptr_t>(bytes.data());
+    const std::uintptr_t before = begin % page;
+    // Only a hint: where it cannot be taken, pages are read as they are touched.
+    madvise(reinterpret_cast<void*>(begin - before), bytes.size() + before, MADV_WILLNEED);
 }
 
 }  // namespace sss

@@ -5,8 +5,9 @@
 
 namespace sss {
 
-/// A whole file, mapped read-only. What was mapped stays readable when another process renames a
-/// new file over the name.
+/// A whole file, mapped read-only. Of what is not in memory yet the system reads the pages that are
+/// touched and no more (readSoon() tells it of others). What was mapped stays readable when another
+/// process renames a new file over the name.
 class MappedFile {
 public:
     /// Throws Error{Io} if `path` cannot be opened or is no regular file. An empty file maps to an
@@ -24,5 +25,8 @@ public:
 private:
     std::span<const std::byte> bytes_;
 };
+
+/// Has the system read these bytes of a mapped file at once and in one go.
+void readSoon(std::span<const std::byte> bytes);
 
 }  // namespace sss
