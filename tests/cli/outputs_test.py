@@ -93,7 +93,7 @@ class Preprocess(CliTest):
         text = self.assert_ok(self.preprocess("--info", "out.ssc"))
         self.assertIn(str(stats["counts"]["points"]), text.out)
         info = json.loads(self.assert_ok(self.preprocess("--info", "out.ssc", "--json")).out)
-        self.assertEqual(info["format"], 4)
+        self.assertEqual(info["format"], 5)
         self.assertEqual(len(info["bodies"]), 1)
         self.assertEqual(info["bodies"][0]["points"], stats["counts"]["points"])
         self.assertEqual(info["bodies"][0]["nodes"], stats["counts"]["nodes"])

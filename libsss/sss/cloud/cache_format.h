@@ -25,7 +25,7 @@ static_assert(std::endian::native == std::endian::little,
 inline constexpr std::array<unsigned char, 8> kCacheMagic{0x89, 'S',  'S',  'C',
                                                           '\r', '\n', 0x1a, '\n'};
 inline constexpr std::uint32_t kCacheEndianMark = 0x01020304;
-inline constexpr std::uint32_t kCacheVersion = 4;
+inline constexpr std::uint32_t kCacheVersion = 5;
 inline constexpr std::uint64_t kCacheAlignment = 64;
 
 struct CacheHeader {

@@ -193,10 +193,10 @@ TEST_F(CacheFileTest, OtherFilesAreNotCaches) {
 
 TEST_F(CacheFileTest, OtherVersionsAndByteOrders) {
     const auto message = [&](auto change) { return refusal(damaged, forged(whole, change)); };
-    EXPECT_TRUE(contains(message([](CacheHeader& h, auto&) { h.version = 5; }),
-                         "format 5 is newer than this program's 4"));
-    EXPECT_TRUE(contains(message([](CacheHeader& h, auto&) { h.version = 3; }),
-                         "format 3 is older than this program's 4"));
+    EXPECT_TRUE(contains(message([](CacheHeader& h, auto&) { h.version = 6; }),
+                         "format 6 is newer than this program's 5"));
+    EXPECT_TRUE(contains(message([](CacheHeader& h, auto&) { h.version = 4; }),
+                         "format 4 is older than this program's 5"));
     EXPECT_TRUE(
         contains(message([](CacheHeader& h, auto&) { h.endianMark = 0x04030201; }), "byte order"));
 }
