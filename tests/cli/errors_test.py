@@ -152,7 +152,7 @@ class Caches(CliTest):
                 result = self.render(self.scene, "--cache", "bad.ssc", "-o", "bad.exr", "--no-png",
                                      "--no-keep")
                 if result.code == BAD_INPUT:
-                    self.assertRegex(result.lines("ERROR")[0], r"bad\.ssc.*damaged")
+                    self.assertRegex(result.lines("ERROR")[0], r"bad\.ssc.*(damaged|not a cache)")
                     self.assertNotIn("bad.exr", self.files())
                 else:
                     self.assert_ok(result)

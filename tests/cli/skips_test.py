@@ -54,6 +54,20 @@ class Skips(CliTest):
         self.assertGreater(counts["skippedNodes"], 0)
         self.assertGreater(counts["skippedPoints"], 0)
 
+    def test_parts_of_a_cache_that_a_close_up_does_not_need(self):
+        """One end of a long bar: the other end is not read."""
+        scene = self.write_scene(
+            objects=[{"name": "bar", "shape": "box", "size": [60, 5, 5], "material": "stone"}],
+            camera={"position": [29, 0, 26], "lookAt": [29, 0, 0], "fovDegrees": 2},
+            film={"width": 8, "height": 8, "samples": 1, "filter": "box"},
+            quality={"spacingMm": 0.3, "bounces": 0, "irradianceSamples": 2})
+        self.assert_ok(self.preprocess(scene, "-o", "bar.ssc"))
+        stats = self.stats_of(scene, "--cache", "bar.ssc", "--no-keep")
+        needed = stats["values"]["frames"][0]["cacheBytesNeeded"]
+        whole = (self.folder / "bar.ssc").stat().st_size
+        self.assertGreater(needed, 65536 // 2)
+        self.assertLess(needed, 0.6 * whole)
+
     def test_single_scattering_out_of_light(self):
         """Two balls; only one is in the cone of the lamp."""
         balls = [{**SCENE["objects"][0], "name": name, "transform": [{"translate": [x, 0, 0]}]}
