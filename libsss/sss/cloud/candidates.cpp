@@ -24,10 +24,13 @@ Verdict judgeScalar(const KernelTable& table, std::span<const OctreeNode> nodes,
         Rgb changing, steady;
         for (int c = 0; c < 3; ++c) {
             const float flux = node.flux[c], threshold = cell.threshold[c];
-            isDark &= flux * bound.derivative[0][c] <= threshold * kNegligibleShare;
+            const bool isDarkHere = flux * bound.derivative[0][c] <= threshold * kNegligibleShare;
+            isDark &= isDarkHere;
             changing[c] = flux * (bound.derivative[3][c] * third);
             steady[c] = chromaticFlux(node.flux, c) * (bound.derivative[2][c] * second);
-            isTaken &= changing[c] + steady[c] * kSteadyWeight <= threshold;
+            // Where nothing may be left out, a bound of 0 may be one that single precision lost.
+            isTaken &= changing[c] + steady[c] * kSteadyWeight <= threshold &&
+                       (threshold > 0 || isDarkHere);
         }
         if (isDark) verdict.dark |= bit;
         if (!isTaken || isDark) continue;

@@ -180,8 +180,9 @@ HWY_ATTR Verdict judgeAny(const KernelTable& table, std::span<const OctreeNode> 
         for (int c = 0; c < 3; ++c) {
             const auto flux = hn::Load(d, j.flux[c] + i);
             const auto threshold = hn::Set(d, cell.threshold[c]);
-            isDark = hn::And(isDark, hn::Le(hn::Mul(flux, bound(0, c)),
-                                            hn::Mul(threshold, hn::Set(d, kNegligibleShare))));
+            const auto isDarkHere = hn::Le(hn::Mul(flux, bound(0, c)),
+                                           hn::Mul(threshold, hn::Set(d, kNegligibleShare)));
+            isDark = hn::And(isDark, isDarkHere);
             c3[c] = hn::Mul(flux, hn::Mul(bound(3, c), third));
             // chromaticFlux()
             const auto others =
@@ -189,6 +190,7 @@ HWY_ATTR Verdict judgeAny(const KernelTable& table, std::span<const OctreeNode> 
             c2[c] = isGrey ? zero : hn::Mul(hn::Min(flux, others), hn::Mul(bound(2, c), second));
             isTaken = hn::And(
                 isTaken, hn::Le(hn::MulAdd(c2[c], hn::Set(d, kSteadyWeight), c3[c]), threshold));
+            if (!(cell.threshold[c] > 0)) isTaken = hn::And(isTaken, isDarkHere);
         }
         isTaken = hn::AndNot(isDark, isTaken);
         for (int c = 0; c < 3; ++c) {

@@ -22,19 +22,22 @@ using testing::SceneMaker;
 
 constexpr double kTolerance = 0.025;  // of scenes/bunny/bunny.json
 constexpr double kPointShare = 0.5, kLightShare = 0.5, kBothShare = 0.71;
-constexpr int kConverged = 32;  // light samples a point of the dense cloud
+constexpr int kConverged = 16;  // light samples a point of the dense cloud
 
 // A ball under the lamp and the sky of the benchmark, nearer.
 SceneMaker ball(std::string_view medium, double radiusPerMfp) {
     SceneMaker maker;
-    const TranslucentMaterial material = measured(medium);
+    TranslucentMaterial material = measured(medium);
+    material.surfaceReflection = material.singleScattering = false;
     const double radius = radiusPerMfp * material.medium.smallestMeanFreePathMm();
     maker.object(SphereShape{radius}, maker.material(material));
     maker.light(RectangleLight{.centre = DVec3(-6, 3, 2) * radius,
                                .widthMm = 5 * radius,
                                .heightMm = 5 * radius,
                                .radiance = Rgb(10)});
-    maker.light(EnvironmentLight{.radiance = Rgb(0.05f)});
+    EnvironmentLight sky;
+    sky.radiance = Rgb(0.05f);
+    maker.light(sky);
     maker.scene.quality.tolerance = kTolerance;
     maker.scene.quality.bounces = 0;
     return maker;
@@ -76,7 +79,7 @@ double rmsOfMean(const PassOne& a, const PassOne& b) {
 
 void expectWithinBudget(std::string_view medium, double radiusPerMfp) {
     SCOPED_TRACE(medium);
-    constexpr std::size_t kReceivers = 400;
+    constexpr std::size_t kReceivers = 256;
     Scene scene = ball(medium, radiusPerMfp).scene;
     const PassOne asked(scene, kReceivers);
     scene.quality.irradianceSamples = 16 * kConverged;
@@ -84,11 +87,11 @@ void expectWithinBudget(std::string_view medium, double radiusPerMfp) {
     scene.quality.spacingMm = asked.spacingMm / 4;
     scene.quality.irradianceSamples = kConverged;
     const PassOne reference(scene, kReceivers);
-    EXPECT_LT(asked.samples, kConverged);
+    EXPECT_LE(asked.samples, kConverged);
     const double points = rmsOfMean(wellLit, reference), light = rmsOfMean(asked, wellLit),
                  both = rmsOfMean(asked, reference);
-    RecordProperty("points", std::to_string(points));
-    RecordProperty("light", std::to_string(light));
+    ::testing::Test::RecordProperty("points", std::to_string(points));
+    ::testing::Test::RecordProperty("light", std::to_string(light));
     EXPECT_LT(points, kPointShare * kTolerance);
     EXPECT_LT(light, kLightShare * kTolerance);
     EXPECT_LT(both, kBothShare * kTolerance);
@@ -96,8 +99,8 @@ void expectWithinBudget(std::string_view medium, double radiusPerMfp) {
     EXPECT_GT(both, 0.05 * kTolerance);
 }
 
-TEST(ErrorBudget, PointsAndLightOfABrightMedium) { expectWithinBudget("Marble", 5); }
-TEST(ErrorBudget, PointsAndLightOfAnAbsorbingMedium) { expectWithinBudget("Ketchup", 4); }
+TEST(ErrorBudget, PointsAndLightOfABrightMedium) { expectWithinBudget("Marble", 4); }
+TEST(ErrorBudget, PointsAndLightOfAnAbsorbingMedium) { expectWithinBudget("Ketchup", 3); }
 
 }  // namespace
 }  // namespace sss
