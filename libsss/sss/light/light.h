@@ -5,6 +5,7 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <span>
 
 namespace sss {
 
@@ -24,6 +25,11 @@ class Light {
 public:
     virtual ~Light() = default;
     virtual LightSample sample(const Vec3& from, const Vec2& u) const = 0;
+    /// sample() from several points, which may be cheaper together.
+    virtual void sampleTogether(std::span<const Vec3> from, std::span<const Vec2> u,
+                                std::span<LightSample> samples) const {
+        for (std::size_t i = 0; i < from.size(); ++i) samples[i] = sample(from[i], u[i]);
+    }
     /// A delta light cannot be hit by a ray: no multiple importance sampling.
     virtual bool isDelta() const { return false; }
     /// Whether its light comes from infinitely far: what a ray that leaves the scene may see.

@@ -1,6 +1,7 @@
 #include "sss/light/rectangle_light.h"
 
 #include "sss/light/geometry.h"
+#include "sss/light/rectangle_simd.h"
 
 namespace sss {
 namespace {
@@ -60,6 +61,19 @@ LightSample RectangleLightSource::sample(const Vec3& from, const Vec2& u) const 
     const double distance = glm::length(offset);
     return {Vec3(offset / distance), static_cast<float>(distance), radiance_,
             static_cast<float>(pdf(view, rectangle.solidAngle(), point))};
+}
+
+void RectangleLightSource::sampleTogether(std::span<const Vec3> from, std::span<const Vec2> u,
+                                          std::span<LightSample> samples) const {
+    sampleRectangle({Vec3(centre_), Vec3(across_), Vec3(up_), Vec3(normal_),
+                     static_cast<float>(halfWidth_), static_cast<float>(halfHeight_)},
+                    from, u, samples);
+    for (std::size_t i = 0; i < from.size(); ++i) {
+        if (samples[i].pdf > 0)
+            samples[i].radiance = radiance_;
+        else
+            samples[i] = sample(from[i], u[i]);
+    }
 }
 
 Light::Seen RectangleLightSource::seen(const Vec3& from, const Vec3& direction) const {

@@ -11,6 +11,9 @@ class RectangleLightSource final : public Light {
 public:
     RectangleLightSource(const RectangleLight& settings, const DVec3& originMm);
     LightSample sample(const Vec3& from, const Vec2& u) const override;
+    /// In float where that is within 1e-6, in double elsewhere.
+    void sampleTogether(std::span<const Vec3> from, std::span<const Vec2> u,
+                        std::span<LightSample> samples) const override;
     Seen seen(const Vec3& from, const Vec3& direction) const override;
     Bounds visibleBounds() const override;
     bool isBelow(const Vec3& point, const Vec3& normal) const override;

@@ -86,6 +86,41 @@ TEST(RectangleLight, SeenAgreesWithSamples) {
     expectSeenAgrees(light, {3000, -9000, 0});  // so far that it is sampled by area
 }
 
+TEST(RectangleLight, SamplesTogetherAreThoseOfEachAlone) {
+    Rng rng(12);
+    const auto within = [&](float size) {
+        return size * (Vec3{rng.uniform(), rng.uniform(), rng.uniform()} - 0.5f);
+    };
+    int shining = 0;
+    for (int scene = 0; scene < 400; ++scene) {
+        // From where the lamp is large to where it is tiny, in front of it and behind.
+        const float far = scene % 4 == 0 ? 3000.0f : 250.0f;
+        RectangleLight settings{DVec3(within(far)), {0, 0, 0}, {0.3, 1, 0}, 90, 160,
+                                {1, 2, 3},          false};
+        settings.twoSided = scene % 3 == 0;
+        const RectangleLightSource light(settings, {});
+        std::vector<Vec3> from;
+        std::vector<Vec2> u;
+        for (int i = 0; i < 1 + scene % 37; ++i) {
+            from.push_back(within(100));
+            u.push_back(rng.uniform2());
+        }
+        std::vector<LightSample> together(from.size());
+        light.sampleTogether(from, u, together);
+        for (std::size_t i = 0; i < from.size(); ++i) {
+            const LightSample alone = light.sample(from[i], u[i]);
+            ASSERT_EQ(together[i].pdf > 0, alone.pdf > 0);
+            if (!(alone.pdf > 0)) continue;
+            ++shining;
+            ASSERT_NEAR(together[i].pdf, alone.pdf, 1e-6 * alone.pdf);
+            ASSERT_NEAR(glm::distance(together[i].direction, alone.direction), 0, 2e-6);
+            ASSERT_NEAR(together[i].distance, alone.distance, 3e-6 * alone.distance);
+            ASSERT_EQ(together[i].radiance, alone.radiance);
+        }
+    }
+    EXPECT_GT(shining, 3000);
+}
+
 TEST(RectangleLight, OneSidedShinesForwardOnly) {
     const RectangleLightSource light(ceiling(2, 2, 10), {});
     EXPECT_GT(light.sample({0, 0, 0}, {0.5f, 0.5f}).pdf, 0);
