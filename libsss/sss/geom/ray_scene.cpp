@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdio>
 #include <string_view>
 #include <vector>
@@ -77,9 +78,13 @@ const T* setBuffer(RTCGeometry geometry, RTCBufferType type, RTCFormat format,
 
 /// Unit normal of a hit; of a needle whose float cross product vanished, a direction that at least
 /// faces the ray.
-Vec3 unitNormal(const DVec3& n, const Vec3& direction) {
-    const double length = glm::length(n);
-    return length > 0 ? Vec3(n / length) : -direction;
+Vec3 unitNormal(const Vec3& n, const Vec3& direction) {
+    constexpr float kLeast = 1e-30f;  // whose square root has all its digits
+    const float length2 = glm::dot(n, n);
+    if (length2 > kLeast && length2 < 1 / kLeast) return n / std::sqrt(length2);
+    const DVec3 exact(n);
+    const double length = glm::length(exact);
+    return length > 0 ? Vec3(exact / length) : -direction;
 }
 
 void fillRay(const Ray& ray, std::uint32_t mask, RTCRay& out) {
@@ -99,16 +104,25 @@ void fillRay(const Ray& ray, std::uint32_t mask, RTCRay& out) {
 
 constexpr std::size_t kPacket = 8;  // what AVX2 holds; Embree takes them apart where it must
 
+/// Several rays and what each of them sees.
+struct RayBundle {
+    std::span<const Ray> rays;
+    std::span<const std::uint32_t> masks;  ///< by ray; empty: everything
+
+    std::uint32_t mask(std::size_t i) const { return masks.empty() ? kAllGeometry : masks[i]; }
+};
+
 /// Fills a packet with the next rays; lanes without a ray are off.
 struct PacketLanes {
     alignas(32) int valid[kPacket];
     std::size_t count;
 
-    PacketLanes(std::span<const Ray> rays, std::size_t first, RTCRay8& out)
-        : count(std::min(kPacket, rays.size() - first)) {
+    PacketLanes(const RayBundle& bundle, std::size_t first, RTCRay8& out)
+        : count(std::min(kPacket, bundle.rays.size() - first)) {
         for (std::size_t i = 0; i < kPacket; ++i) {
             valid[i] = i < count ? -1 : 0;
-            const Ray& ray = rays[first + std::min(i, count - 1)];
+            const std::size_t number = first + std::min(i, count - 1);
+            const Ray& ray = bundle.rays[number];
             out.org_x[i] = ray.origin.x;
             out.org_y[i] = ray.origin.y;
             out.org_z[i] = ray.origin.z;
@@ -118,7 +132,7 @@ struct PacketLanes {
             out.tnear[i] = ray.tMin;
             out.tfar[i] = ray.tMax;
             out.time[i] = 0;
-            out.mask[i] = kAllGeometry;
+            out.mask[i] = bundle.mask(number);
             out.id[i] = 0;
             out.flags[i] = 0;
         }
@@ -148,6 +162,8 @@ struct VisitContext {
     }
 };
 
+// As packets, rays that part cost twice what they cost singly, even in an order by direction:
+// Embree is told to part them, and is still faster than by calls for single rays.
 RTCIntersectContext contextOf(RayScene::Together together) {
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
@@ -248,11 +264,13 @@ void RayScene::forEachHit(const Ray& ray, const std::function<void(const Hit&)>&
     rtcOccluded1(impl_->scene, &context.embree, &query);
 }
 
-void RayScene::intersectTogether(std::span<const Ray> rays, std::span<Hit> hits) const {
-    RTCIntersectContext context = contextOf(Together::Parallel);
+void RayScene::intersectTogether(std::span<const Ray> rays, Together together, std::span<Hit> hits,
+                                 std::span<const std::uint32_t> masks) const {
+    RTCIntersectContext context = contextOf(together);
+    const RayBundle bundle{rays, masks};
     RTCRayHit8 query;
     for (std::size_t first = 0; first < rays.size(); first += kPacket) {
-        const PacketLanes lanes(rays, first, query.ray);
+        const PacketLanes lanes(bundle, first, query.ray);
         std::fill_n(query.hit.geomID, kPacket, RTC_INVALID_GEOMETRY_ID);
         rtcIntersect8(lanes.valid, impl_->scene, &context, &query);
         for (std::size_t i = 0; i < lanes.count; ++i) {
@@ -269,18 +287,18 @@ void RayScene::intersectTogether(std::span<const Ray> rays, std::span<Hit> hits)
     }
 }
 
-std::uint64_t RayScene::occludedTogether(std::span<const Ray> rays, Together together) const {
-    // As packets, rays that part cost twice what they cost singly: Embree is told to part them.
+void RayScene::occludedTogether(std::span<const Ray> rays, Together together,
+                                std::span<bool> occluded,
+                                std::span<const std::uint32_t> masks) const {
     RTCIntersectContext context = contextOf(together);
+    const RayBundle bundle{rays, masks};
     RTCRay8 query;
-    std::uint64_t result = 0;
     for (std::size_t first = 0; first < rays.size(); first += kPacket) {
-        const PacketLanes lanes(rays, first, query);
+        const PacketLanes lanes(bundle, first, query);
         rtcOccluded8(lanes.valid, impl_->scene, &context, &query);
         for (std::size_t i = 0; i < lanes.count; ++i)
-            if (query.tfar[i] < rays[first + i].tMin) result |= std::uint64_t{1} << (first + i);
+            occluded[first + i] = query.tfar[i] < rays[first + i].tMin;
     }
-    return result;
 }
 
 std::array<Vec3, 3> RayScene::Impl::corners(const Hit& hit) const {

@@ -58,14 +58,16 @@ public:
     /// throw.
     void forEachHit(const Ray& ray, const std::function<void(const Hit&)>& visit,
                     std::uint32_t mask = kAllGeometry) const;
-    /// intersect() for rays that start close together and go the same way, as those through one
-    /// pixel do: cheaper together. Hits of rays that hit nothing have kNoGeometry.
-    void intersectTogether(std::span<const Ray> rays, std::span<Hit> hits) const;
-    /// Whether rays go the same way too: through one pixel, or to one point.
-    enum class Together { Parted, Parallel };
-    /// Occlusion of rays that start close together; the bit i of the result is set if ray i, of at
-    /// most 64, is occluded.
-    std::uint64_t occludedTogether(std::span<const Ray> rays, Together together) const;
+    /// How several rays lie: they go the same way too, like those through one pixel, or just start
+    /// close to one another.
+    enum class Together { Parallel, Parted };
+    /// intersect() for several rays, cheaper together. Hits of rays that hit nothing have
+    /// kNoGeometry. `masks` by ray, or none if every ray sees all geometry.
+    void intersectTogether(std::span<const Ray> rays, Together together, std::span<Hit> hits,
+                           std::span<const std::uint32_t> masks = {}) const;
+    /// occluded() for several rays, likewise.
+    void occludedTogether(std::span<const Ray> rays, Together together, std::span<bool> occluded,
+                          std::span<const std::uint32_t> masks = {}) const;
     const Bounds& bounds() const { return bounds_; }
 
     /// Where a hit lies, and where the next ray starts.

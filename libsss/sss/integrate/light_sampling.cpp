@@ -1,5 +1,10 @@
 #include "sss/integrate/light_sampling.h"
 
+#include "sss/base/assert.h"
+#include "sss/base/inline_vector.h"
+
+#include <array>
+
 namespace sss {
 namespace {
 
@@ -23,6 +28,18 @@ void forEachSeen(const World& world, const Ray& ray, float distance, const Scatt
     }
 }
 
+DirectSample directSample(const Light& light, float pmf, const LightSample& sample) {
+    DirectSample result;
+    if (!(sample.pdf > 0) || isZero(sample.radiance)) return result;
+    result.direction = sample.direction;
+    result.distance = sample.distance;
+    result.isDelta = light.isDelta();
+    result.volume = light.volume();
+    result.pdf = sample.pdf * pmf;
+    result.radianceOverPdf = sample.radiance / result.pdf;
+    return result;
+}
+
 }  // namespace
 
 DirectSample sampleDirect(const World& world, const Vec3& from, float uPick, const Vec2& u) {
@@ -32,25 +49,16 @@ DirectSample sampleDirect(const World& world, const Vec3& from, float uPick, con
 
 DirectSample sampleDirect(const World& world, const LightPicker::Pick& pick, const Vec3& from,
                           const Vec2& u) {
-    DirectSample result;
     const Light& light = *world.lights()[pick.index];
-    const LightSample sample = light.sample(from, u);
-    if (!(sample.pdf > 0) || isZero(sample.radiance)) return result;
-    result.direction = sample.direction;
-    result.distance = sample.distance;
-    result.isDelta = light.isDelta();
-    result.volume = light.volume();
-    result.pdf = sample.pdf * pick.pmf;
-    result.radianceOverPdf = sample.radiance / result.pdf;
-    return result;
+    return directSample(light, pick.pmf, light.sample(from, u));
 }
 
-DirectSample sampleDirect(const World& world, const Vec3& from, const Vec3& normal,
-                          Sampler& sampler) {
+std::optional<LightQuery> queryAbove(const World& world, const Vec3& from, const Vec3& normal,
+                                     Sampler& sampler) {
     const LightPicker& picker = world.picker();
     if (picker.empty()) {
         sampler.skip(2);
-        return {};
+        return std::nullopt;
     }
     float uPick = 0;
     if (picker.hasChoice())
@@ -58,11 +66,43 @@ DirectSample sampleDirect(const World& world, const Vec3& from, const Vec3& norm
     else
         sampler.skip();
     const LightPicker::Pick pick = picker.pick(uPick);
-    if (world.lights()[pick.index]->isBelow(from, normal)) {
-        sampler.skip();
-        return {};
+    if (!world.lights()[pick.index]->isBelow(from, normal))
+        return LightQuery{pick, from, sampler.next2D()};
+    sampler.skip();
+    return std::nullopt;
+}
+
+DirectSample sampleDirect(const World& world, const Vec3& from, const Vec3& normal,
+                          Sampler& sampler) {
+    const auto query = queryAbove(world, from, normal, sampler);
+    return query ? sampleDirect(world, query->pick, from, query->u) : DirectSample();
+}
+
+void sampleDirect(const World& world, std::span<const LightQuery> queries,
+                  std::span<DirectSample> samples) {
+    SSS_ASSERT_LE(queries.size(), kMostDirect);
+    std::array<bool, kMostDirect> isDone{};
+    for (std::size_t first = 0; first < queries.size(); ++first) {
+        if (isDone[first]) continue;
+        // All that ask for the same light.
+        const LightPicker::Pick& pick = queries[first].pick;
+        InlineVector<std::size_t, kMostDirect> which;
+        InlineVector<Vec3, kMostDirect> from;
+        InlineVector<Vec2, kMostDirect> u;
+        InlineVector<LightSample, kMostDirect> found;
+        for (std::size_t k = first; k < queries.size(); ++k) {
+            if (queries[k].pick.index != pick.index) continue;
+            isDone[k] = true;
+            which.emplace_back(k);
+            from.emplace_back(queries[k].from);
+            u.emplace_back(queries[k].u);
+            found.emplace_back();
+        }
+        const Light& light = *world.lights()[pick.index];
+        light.sampleTogether(from.span(), u.span(), found.span());
+        for (std::size_t j = 0; j < which.size(); ++j)
+            samples[which[j]] = directSample(light, pick.pmf, found[j]);
     }
-    return sampleDirect(world, pick, from, sampler.next2D());
 }
 
 Ray shadowRay(const Vec3& from, const DirectSample& sample) {
@@ -81,15 +121,22 @@ Rgb radianceOfLights(const World& world, const Ray& ray, float distance,
     return sum;
 }
 
-Rgb radianceOfOpenLights(const World& world, const Ray& ray, const ScatterOrigin& origin,
-                         std::uint64_t& rays) {
+Rgb radianceOfLightsAlong(const World& world, const Ray& ray, const ScatterOrigin& origin,
+                          bool& isNear) {
     Rgb sum(0);
-    bool isNear = false;
+    isNear = false;
     constexpr float kInfinity = std::numeric_limits<float>::infinity();
     forEachSeen(world, ray, kInfinity, origin, [&](const Rgb& radiance, float lightDistance) {
         sum += radiance;
         isNear = isNear || std::isfinite(lightDistance);
     });
+    return sum;
+}
+
+Rgb radianceOfOpenLights(const World& world, const Ray& ray, const ScatterOrigin& origin,
+                         std::uint64_t& rays) {
+    bool isNear = false;
+    const Rgb sum = radianceOfLightsAlong(world, ray, origin, isNear);
     if (isZero(sum)) return sum;
     ++rays;
     if (!isNear) return world.rays().occluded(ray) ? Rgb(0) : sum;

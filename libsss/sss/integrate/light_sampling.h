@@ -5,6 +5,8 @@
 
 #include <cmath>
 #include <limits>
+#include <optional>
+#include <span>
 
 namespace sss {
 
@@ -25,10 +27,23 @@ DirectSample sampleDirect(const World& world, const Vec3& from, float uPick, con
 /// The same of a light that has been picked.
 DirectSample sampleDirect(const World& world, const LightPicker::Pick& pick, const Vec3& from,
                           const Vec2& u);
-/// The same from a surface of geometric normal `normal`, which light from below does not reach;
-/// takes two numbers of the sampler, but computes only those that it needs.
+/// The same from a surface, by queryAbove().
 DirectSample sampleDirect(const World& world, const Vec3& from, const Vec3& normal,
                           Sampler& sampler);
+/// Where a light that has been picked is sampled from, and by which numbers.
+struct LightQuery {
+    LightPicker::Pick pick;
+    Vec3 from;
+    Vec2 u;
+};
+inline constexpr std::size_t kMostDirect = 16;
+/// sampleDirect() for several, at most kMostDirect: cheaper together.
+void sampleDirect(const World& world, std::span<const LightQuery> queries,
+                  std::span<DirectSample> samples);
+/// A light that a surface of geometric normal `normal` may see; takes two numbers of the sampler,
+/// but computes only those that it needs. Nothing if light comes from below.
+std::optional<LightQuery> queryAbove(const World& world, const Vec3& from, const Vec3& normal,
+                                     Sampler& sampler);
 
 /// From a point (already off its surface) to just before the end of a DirectSample.
 Ray shadowRay(const Vec3& from, const DirectSample& sample);
@@ -48,6 +63,10 @@ Rgb radianceOfLights(const World& world, const Ray& ray, float distance,
 /// what had to be traced to know, which is nothing where there is no light.
 Rgb radianceOfOpenLights(const World& world, const Ray& ray, const ScatterOrigin& origin,
                          std::uint64_t& rays);
+/// The same without a look at what stands before them; `isNear` if one of them is not infinitely
+/// far.
+Rgb radianceOfLightsAlong(const World& world, const Ray& ray, const ScatterOrigin& origin,
+                          bool& isNear);
 /// The same for the emitting surface that a ray hit, without volumes.
 Rgb radianceOfEmitter(const World& world, const Ray& ray, const SurfaceHit& hit,
                       const ScatterOrigin& origin);

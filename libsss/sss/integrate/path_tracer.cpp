@@ -1,9 +1,6 @@
 #include "sss/integrate/path_tracer.h"
 
-#include "sss/base/assert.h"
-#include "sss/base/inline_vector.h"
 #include "sss/integrate/arriving_light.h"
-#include "sss/integrate/first_hit.h"
 #include "sss/integrate/look_through.h"
 #include "sss/integrate/single_scatter.h"
 
@@ -15,20 +12,11 @@ namespace {
 
 // Paths longer than this are continued by chance.
 constexpr int kRouletteDepth = 3;
-// Share of the camera samples whose reflection is followed: this many times its weight, and at
-// least so many.
-constexpr float kReflectionEffort = 6.0f, kLeastReflectionShare = 0.25f;
+// Before that, this many times a path's weight is the chance that it goes on.
+constexpr float kEffort = 6.0f;
 // A direction drawn with less than this density (sr^-1) came from a diffuse or very rough lobe.
 constexpr float kWideLobe = 1.0f;
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
-
-// By which sample number `index` of the `all` of a pixel weights single scattering; 0 if it does
-// not look for it. The first of them do, as they are stratified among themselves.
-float singleWeight(const BodyOptics& optics, std::uint32_t index, std::uint32_t all) {
-    const auto some =
-        static_cast<std::uint32_t>(std::ceil(optics.singleProbability * static_cast<float>(all)));
-    return index % all < some ? static_cast<float>(all) / static_cast<float>(some) : 0.0f;
-}
 
 }  // namespace
 
@@ -57,14 +45,8 @@ Bsdf PathTracer::bsdfAt(const SurfaceHit& hit, const Vec3& wo) const {
     return Bsdf(world_, hit, wo, optics, shading_);
 }
 
-Rgb PathTracer::openLight(const SurfaceHit& hit, const Bsdf& bsdf, Sampler& sampler,
-                          ShadowRay& shadow) const {
-    if (!bsdf.hasSmoothPart()) {
-        sampler.skip(2);
-        return Rgb(0);
-    }
-    const Vec3 from = world_.leave(hit, bsdf.geometricNormal());
-    const DirectSample direct = sampleDirect(world_, from, bsdf.geometricNormal(), sampler);
+Rgb PathTracer::openLight(const Bsdf& bsdf, const Vec3& from, const DirectSample& direct,
+                          ShadowRay& shadow) {
     if (!(direct.pdf > 0)) return Rgb(0);
     const Rgb value = bsdf.evaluate(direct.direction);
     if (isZero(value)) return Rgb(0);
@@ -76,8 +58,14 @@ Rgb PathTracer::openLight(const SurfaceHit& hit, const Bsdf& bsdf, Sampler& samp
 
 Rgb PathTracer::directLight(const SurfaceHit& hit, const Bsdf& bsdf, Sampler& sampler,
                             PathCounts& counts) const {
+    if (!bsdf.hasSmoothPart()) {
+        sampler.skip(2);
+        return Rgb(0);
+    }
+    const Vec3 from = world_.leave(hit, bsdf.geometricNormal());
     ShadowRay shadow;
-    const Rgb light = openLight(hit, bsdf, sampler, shadow);
+    const Rgb light =
+        openLight(bsdf, from, sampleDirect(world_, from, bsdf.geometricNormal(), sampler), shadow);
     if (isZero(light)) return Rgb(0);
     return light * arrivingShare(world_, shadow.ray, shadow.volume, counts.rays);
 }
@@ -159,7 +147,7 @@ bool PathTracer::scatter(const SurfaceHit& hit, const Bsdf& bsdf, Sampler& sampl
 }
 
 Rgb PathTracer::followed(Ray ray, ScatterOrigin origin, int bounces, Sampler& sampler,
-                         PathCounts& counts) const {
+                         PathCounts& counts, const Hit* first) const {
     Rgb sum(0), throughput(1);
     const bool afterVolume = origin.afterVolume;
     bool isWide = false;
@@ -167,8 +155,14 @@ Rgb PathTracer::followed(Ray ray, ScatterOrigin origin, int bounces, Sampler& sa
         if (depth >= bounces && !world_.hasUnseenLight())
             return sum + throughput * radianceOfOpenLights(world_, ray, origin, counts.rays);
         Hit found;
-        ++counts.rays;
-        const bool isHit = world_.rays().intersect(ray, found);
+        bool isHit;
+        if (depth == 0 && first) {
+            found = *first;
+            isHit = found.geometry != kNoGeometry;
+        } else {
+            ++counts.rays;
+            isHit = world_.rays().intersect(ray, found);
+        }
         const float distance = isHit ? found.t : kInfinity;
         sum += throughput * radianceOfLights(world_, ray, distance, origin);
         if (world_.hasVolumes()) {
@@ -193,94 +187,16 @@ Rgb PathTracer::followed(Ray ray, ScatterOrigin origin, int bounces, Sampler& sa
             sum += throughput * diffusion(hit, bsdf, wo, sampler, counts) *
                    optics_[static_cast<std::size_t>(hit.body)]->indirectScale;
         if (!scatter(hit, bsdf, sampler, ray, origin, throughput)) return sum;
-        if (depth + 1 >= kRouletteDepth) {
-            const float survival = std::min(0.95f, maxComponent(throughput));
-            if (!(sampler.next1D() < survival)) return sum;
-            throughput /= survival;
-        } else {
+        // At first only what is faint is continued by chance: what polish reflects once more.
+        const float most = maxComponent(throughput);
+        const float survival =
+            depth + 1 >= kRouletteDepth ? std::min(0.95f, most) : std::min(1.0f, kEffort * most);
+        if (survival >= 1) {
             sampler.skip();
-        }
-    }
-}
-
-void PathTracer::shade(const FirstSurface& surface, const Ray& ray, Sampler& sampler,
-                       FilmSample& seen, PathCounts& counts) const {
-    const SurfaceHit& hit = surface.hit;
-    const Bsdf& bsdf = surface.bsdf;
-    const int bounces = world_.scene().quality.bounces;
-    seen.diffusion = seen.single = seen.surface = Rgb(0);
-    describeFirstHit(world_, ray, hit, bsdf, seen);
-    // In the diffuse limit, what comes from within is what the surface reflects.
-    Rgb& reflected = hit.body >= 0 && !exitance_ ? seen.diffusion : seen.surface;
-    reflected = radianceOfEmitter(world_, ray, hit, {}) + surface.direct;
-    if (hit.body >= 0 && exitance_) {
-        const BodyOptics& optics = *optics_[static_cast<std::size_t>(hit.body)];
-        seen.diffusion =
-            diffusion(hit, bsdf, -ray.direction, sampler, counts) * optics.multipleScale;
-        if (optics.material.singleScattering) {
-            Sampler side = sampler.branch();
-            const auto all = static_cast<std::uint32_t>(world_.scene().film.samples);
-            const float weight = singleWeight(optics, sampler.index(), all);
-            if (weight > 0)
-                seen.single = weight * singleScatteringAt(hit, -ray.direction, bsdf.shadingNormal(),
-                                                          side, counts);
-        }
-        if (optics.seesThrough) reflected += behind(hit, -ray.direction, sampler, counts);
-    }
-    Ray next;
-    ScatterOrigin origin;
-    Rgb throughput(1);
-    if (!scatter(hit, bsdf, sampler, next, origin, throughput)) return;
-    // A dielectric reflects 4 % of what it sees: not every sample needs to look.
-    const float survival =
-        std::clamp(kReflectionEffort * maxComponent(throughput), kLeastReflectionShare, 1.0f);
-    if (survival >= 1)
-        sampler.skip();
-    else if (!(sampler.next1D() < survival))
-        return;
-    reflected += throughput / survival * incoming(next, origin, bounces, sampler, counts);
-}
-
-void PathTracer::trace(std::span<const Ray> rays, std::span<Sampler> samplers,
-                       std::span<FilmSample> seen, PathCounts& counts) const {
-    SSS_ASSERT_LE(rays.size(), kMostViews);
-    InlineVector<Hit, kMostViews> found;
-    for (std::size_t i = 0; i < rays.size(); ++i) found.emplace_back();
-    world_.rays().intersectTogether(rays, found.span());
-    counts.cameraSamples += rays.size();
-    counts.rays += rays.size();
-
-    InlineVector<FirstSurface, kMostViews> surfaces;
-    InlineVector<Ray, kMostViews> shadows;
-    InlineVector<FirstSurface*, kMostViews> lit;  // by shadow ray
-    for (std::size_t i = 0; i < rays.size(); ++i) {
-        if (found[i].geometry == kNoGeometry) {
-            seen[i] = {};
-            putInFront(rays[i], kInfinity, samplers[i], seen[i], counts);
             continue;
         }
-        FirstSurface& surface = surfaces.emplace_back(*this, found[i], -rays[i].direction, i);
-        ShadowRay shadow;
-        const Rgb light = openLight(surface.hit, surface.bsdf, samplers[i], shadow);
-        if (isZero(light)) continue;
-        surface.direct = light;
-        if (world_.hasVolumes()) {
-            surface.direct *= arrivingShare(world_, shadow.ray, shadow.volume, counts.rays);
-            continue;
-        }
-        shadows.emplace_back(shadow.ray);
-        lit.emplace_back(&surface);
-    }
-    const std::uint64_t occluded = world_.rays().occludedTogether(
-        shadows.span(),
-        world_.hasWideLights() ? RayScene::Together::Parted : RayScene::Together::Parallel);
-    counts.rays += shadows.size();
-    for (std::size_t k = 0; k < lit.size(); ++k)
-        if (occluded >> k & 1) lit[k]->direct = Rgb(0);
-    for (const FirstSurface& surface : surfaces) {
-        const std::size_t i = surface.view;
-        shade(surface, rays[i], samplers[i], seen[i], counts);
-        putInFront(rays[i], surface.hit.distance, samplers[i], seen[i], counts);
+        if (!(sampler.next1D() < survival)) return sum;
+        throughput /= survival;
     }
 }
 

@@ -78,29 +78,43 @@ private:
                   PathCounts& counts) const;
     /// What is seen through a body.
     Rgb behind(const SurfaceHit& hit, const Vec3& wo, Sampler& sampler, PathCounts& counts) const;
-    /// The same through surfaces.
-    Rgb followed(Ray ray, ScatterOrigin origin, int bounces, Sampler& sampler,
-                 PathCounts& counts) const;
+    /// What arrives along a ray, through surfaces; `first` if what it hits is known.
+    Rgb followed(Ray ray, ScatterOrigin origin, int bounces, Sampler& sampler, PathCounts& counts,
+                 const Hit* first = nullptr) const;
     /// The way to a light.
     struct ShadowRay {
         Ray ray;
         int volume = -1;  ///< as in DirectSample
     };
-    /// What a light sample brings if nothing stands on the way `shadow`, which is set unless that
-    /// is zero.
-    Rgb openLight(const SurfaceHit& hit, const Bsdf& bsdf, Sampler& sampler,
-                  ShadowRay& shadow) const;
+    /// What a light sample brings to a surface if nothing stands on the way `shadow`, which is set
+    /// unless that is zero.
+    static Rgb openLight(const Bsdf& bsdf, const Vec3& from, const DirectSample& direct,
+                         ShadowRay& shadow);
     /// What the camera sees. Made in place: copying what was just written stalls the processor.
-    struct FirstSurface {
-        FirstSurface(const PathTracer& tracer, const Hit& found, const Vec3& wo, std::size_t number)
-            : hit(tracer.world_.surfaceAt(found)), bsdf(tracer.bsdfAt(hit, wo)), view(number) {}
-        SurfaceHit hit;
-        Bsdf bsdf;
-        std::size_t view;  ///< which of those traced together
-        Rgb direct{0.0f};
+    struct FirstSurface;
+    /// A ray that goes on from there, and what its light is added to, times its weight.
+    struct Onward {
+        Ray ray;
+        ScatterOrigin origin;
+        int bounces;
+        Rgb weight;
+        Rgb* sum;
+        Sampler* sampler;
     };
-    void shade(const FirstSurface& surface, const Ray& ray, Sampler& sampler, FilmSample& seen,
-               PathCounts& counts) const;
+    /// Several views in the making, and the steps in which they are made: each traces its rays
+    /// together.
+    struct Views;
+    void findSurfaces(Views& views, PathCounts& counts) const;
+    void lightDirectly(Views& views, PathCounts& counts) const;
+    /// Whether light that a body reflects is worth a shadow ray; weights it if that was by chance.
+    bool isFollowed(const FirstSurface& surface, Views& views, Rgb& light) const;
+    void scatterOnce(Views& views, PathCounts& counts) const;
+    void reflect(Views& views) const;
+    void follow(std::span<Onward> onwards, PathCounts& counts) const;
+    /// The same where rays bring nothing but the light of lamps.
+    void seeLamps(std::span<Onward> onwards, PathCounts& counts) const;
+    /// What a view sees by reflection at its first surface.
+    Rgb& reflectedBy(const FirstSurface& surface, Views& views) const;
     /// Puts volumes and lights between the camera and what is seen, which is `distance` away.
     void putInFront(const Ray& ray, float distance, Sampler& sampler, FilmSample& seen,
                     PathCounts& counts) const;

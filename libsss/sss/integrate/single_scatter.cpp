@@ -1,5 +1,7 @@
 #include "sss/integrate/single_scatter.h"
 
+#include "sss/base/assert.h"
+#include "sss/base/inline_vector.h"
 #include "sss/base/warp.h"
 #include "sss/integrate/arriving_light.h"
 #include "sss/integrate/medium_coefficients.h"
@@ -8,6 +10,7 @@
 #include "sss/optics/phase.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 
@@ -22,26 +25,21 @@ struct Exit {
     Vec3 inward;  // propagation direction inside of light that comes in against the line
 };
 
-std::optional<Exit> findExit(const World& world, const BodyOptics& optics, int body,
-                             const Vec3& from, const Vec3& direction) {
-    Ray ray;
-    ray.origin = from;
-    ray.direction = direction;
-    Hit hit;
-    if (!world.rays().intersect(ray, hit, bodyMask(body))) return std::nullopt;
+std::optional<Exit> exitAt(const World& world, const SingleQuery& query, const Vec3& direction,
+                           const Hit& hit) {
     const SurfaceHit surface = world.surfaceAt(hit);
-    if (surface.body != body || glm::dot(surface.geometricNormal, direction) <= 0)
+    if (surface.body != query.hit->body || glm::dot(surface.geometricNormal, direction) <= 0)
         return std::nullopt;
+    const float eta = query.optics->eta;
     Exit exit;
     exit.outside = world.leave(surface, surface.geometricNormal);
     exit.distance = hit.t;
     Vec3 normal = surface.shadingNormal;
     if (glm::dot(normal, direction) <= 0) normal = surface.geometricNormal;
     exit.cosOutside = glm::dot(normal, direction);
-    exit.cosInside = refractedCosine(exit.cosOutside, optics.eta);
+    exit.cosInside = refractedCosine(exit.cosOutside, eta);
     if (!(exit.cosInside > 0)) return std::nullopt;  // eta < 1: no light comes in this way
-    exit.inward =
-        refractedDirection(-direction, normal, exit.cosOutside, exit.cosInside, optics.eta);
+    exit.inward = refractedDirection(-direction, normal, exit.cosOutside, exit.cosInside, eta);
     return exit;
 }
 
@@ -106,94 +104,128 @@ constexpr float kOutwardShare = 0.75f;
 // scattering turns towards the camera, not all is followed.
 constexpr float kFaint = 0.01f / (4 * kPiF);
 
-// What a place inside sends towards the outgoing propagation direction `out`, by one of the two
-// techniques, weighted by the power heuristic for one sample.
+// What a place inside sends out towards where it is seen from, by one of the two techniques,
+// weighted by the power heuristic for one sample.
 class InScattering {
 public:
-    InScattering(const World& world, const BodyOptics& optics, const MediumCoefficients& medium,
-                 const SurfaceHit& hit, bool isLit, const Vec3& place, const Vec3& out)
-        : world_(world),
-          optics_(optics),
+    // `lightShare` of the samples are by light sampling; `out` is the propagation direction in
+    // which it is seen, `leaving` by how much.
+    InScattering(SingleQuery& query, const MediumCoefficients& medium, float lightShare,
+                 const Vec3& place, const Vec3& out, const Rgb& leaving)
+        : query_(query),
           medium_(medium),
-          body_(hit.body),
-          outward_(hit.geometricNormal),
-          lightShare_(lightShare(world, isLit)),
+          outward_(query.hit->geometricNormal),
+          lightShare_(lightShare),
           place_(place),
-          out_(out) {}
+          out_(out),
+          leaving_(leaving) {}
 
-    Rgb estimate(Sampler& sampler, const IncomingRadiance& incoming,
-                 SingleScatterCounts& counts) const {
+    const SingleQuery& query() const { return query_; }
+
+    // Chooses a technique: a light to be sampled from the place, or none for the other one, which
+    // chooses its direction itself.
+    std::optional<LightQuery> choose(const World& world) {
+        Sampler& sampler = query_.sampler;
         const float uTechnique = sampler.next1D(), uPick = sampler.next1D();
         const Vec2 u = sampler.next2D();
-        const float uFaint = sampler.next1D();
-        if (uTechnique < lightShare_) return byLight(uPick, u, uFaint, counts);
-        const float rest = (uTechnique - lightShare_) / (1 - lightShare_);
-        return byScattering(rest < kOutwardShare, u, uFaint, incoming, counts);
+        uFaint_ = sampler.next1D();
+        isByLight_ = uTechnique < lightShare_;
+        if (isByLight_) return LightQuery{world.picker().pick(uPick), place_, u};
+        const bool outward = (uTechnique - lightShare_) / (1 - lightShare_) < kOutwardShare;
+        direct_.direction = outward ? outward_.toWorld(cosineDirection(u))
+                                    : sampleScattered(-out_, meanComponent(medium_.g), u);
+        direct_.pdf = scatteringPdf(direct_.direction);
+        return std::nullopt;
     }
+    void setLight(const DirectSample& sample) { direct_ = sample; }
+
+    // A straight line to the boundary in the direction that was chosen; false if there is none.
+    bool aim(Ray& line) const {
+        line.origin = place_;
+        line.direction = direct_.direction;
+        return direct_.pdf > 0;
+    }
+
+    // What light sampling brings where its line goes out, if nothing stands on the way `shadow`;
+    // zero for the other technique, whose ray this tells.
+    Rgb gather(const Exit& exit, Ray& shadow, SingleFound& found) const {
+        if (isByLight_ && exit.distance >= direct_.distance) return Rgb(0);
+        const Rgb wayIn = entering(exit) * leaving_;
+        if (isZero(wayIn)) return Rgb(0);
+        if (!isByLight_) {
+            found.weight = wayIn / direct_.pdf;
+            found.ray.origin = exit.outside;
+            found.ray.direction = direct_.direction;
+            // Infinite without light sampling: nothing to share with.
+            found.origin = {place_, direct_.pdf / lightShare_};
+            return Rgb(0);
+        }
+        DirectSample rest = direct_;
+        rest.distance -= exit.distance;
+        shadow = shadowRay(exit.outside, rest);
+        const float weight = direct_.isDelta ? 1.0f
+                                             : powerHeuristic(lightShare_ * direct_.pdf,
+                                                              scatteringPdf(direct_.direction));
+        return wayIn * direct_.radianceOverPdf * (weight / lightShare_);
+    }
+    int volume() const { return direct_.volume; }
 
 private:
     // Everything on the way in but the light itself. What is left of faint light is followed by
     // chance, and zero where chance says no.
-    Rgb entering(const Exit& exit, float uFaint) const {
+    Rgb entering(const Exit& exit) const {
         const float snell = exit.cosOutside / exit.cosInside;
-        const float boundary = (1.0f - fresnelReflectance(exit.cosOutside, optics_.eta)) * snell;
+        const float boundary =
+            (1.0f - fresnelReflectance(exit.cosOutside, query_.optics->eta)) * snell;
         const Rgb share = phaseBetween(medium_, exit.inward, out_) *
                           medium_.transmittance(exit.distance * snell) * boundary;
         const float survival = std::min(1.0f, maxComponent(share) / kFaint);
-        return uFaint < survival ? share / survival : Rgb(0);
+        return uFaint_ < survival ? share / survival : Rgb(0);
     }
 
-    // Density of byScattering().
+    // Density of the directions that are not chosen by light sampling.
     float scatteringPdf(const Vec3& direction) const {
         const float phase = henyeyGreenstein(-glm::dot(direction, out_), meanComponent(medium_.g));
         const float outward = std::max(0.0f, glm::dot(direction, outward_.normal)) / kPiF;
         return (1 - lightShare_) * (kOutwardShare * outward + (1 - kOutwardShare) * phase);
     }
 
-    Rgb byLight(float uPick, const Vec2& u, float uFaint, SingleScatterCounts& counts) const {
-        const DirectSample direct = sampleDirect(world_, place_, uPick, u);
-        if (!(direct.pdf > 0)) return Rgb(0);
-        ++counts.rays;
-        const auto exit = findExit(world_, optics_, body_, place_, direct.direction);
-        if (!exit || exit->distance >= direct.distance) return Rgb(0);
-        const Rgb wayIn = entering(*exit, uFaint);
-        if (isZero(wayIn)) return Rgb(0);
-        DirectSample rest = direct;
-        rest.distance -= exit->distance;
-        const Rgb arriving = arrivingShare(world_, exit->outside, rest, counts.rays);
-        if (isZero(arriving)) return Rgb(0);
-        const float weight = direct.isDelta ? 1.0f
-                                            : powerHeuristic(lightShare_ * direct.pdf,
-                                                             scatteringPdf(direct.direction));
-        return wayIn * arriving * direct.radianceOverPdf * (weight / lightShare_);
-    }
-
-    Rgb byScattering(bool outward, const Vec2& u, float uFaint, const IncomingRadiance& incoming,
-                     SingleScatterCounts& counts) const {
-        const Vec3 direction = outward ? outward_.toWorld(cosineDirection(u))
-                                       : sampleScattered(-out_, meanComponent(medium_.g), u);
-        const float pdf = scatteringPdf(direction);
-        if (!(pdf > 0)) return Rgb(0);
-        ++counts.rays;
-        const auto exit = findExit(world_, optics_, body_, place_, direction);
-        if (!exit) return Rgb(0);
-        const Rgb wayIn = entering(*exit, uFaint);
-        if (isZero(wayIn)) return Rgb(0);
-        Ray beyond;
-        beyond.origin = exit->outside;
-        beyond.direction = direction;
-        // Infinite without light sampling: nothing to share with.
-        return wayIn * incoming(beyond, place_, pdf / lightShare_) / pdf;
-    }
-
-    const World& world_;
-    const BodyOptics& optics_;
-    const MediumCoefficients& medium_;
-    int body_;
+    SingleQuery& query_;
+    MediumCoefficients medium_;
     Frame outward_;
     float lightShare_;
     Vec3 place_, out_;
+    Rgb leaving_;
+    DirectSample direct_;  // of the other technique, direction and density only
+    float uFaint_ = 0;
+    bool isByLight_ = false;
 };
+
+// Where light might scatter towards where a place is seen from, should the ray `inward` get there.
+std::optional<InScattering> scatteringPlace(const World& world, SingleQuery& query, Ray& inward) {
+    const MediumCoefficients medium(query.optics->material.medium);
+    const float eta = query.optics->eta, cosOut = glm::dot(query.normal, query.wo);
+    const float cosOutInside = refractedCosine(cosOut, eta);
+    if (!(cosOut > 0 && cosOutInside > 0)) return std::nullopt;
+    // Light that comes only from behind goes the other way through a thin part: less of it is left
+    // where it came in, not more.
+    const bool isLit = isLitFromOutside(world, *query.hit);
+    const Depth depth =
+        sampleDepth(medium, isLit ? bothWays(cosOutInside, eta) : 1.0f, query.sampler);
+    if (isZero(depth.weight)) return std::nullopt;
+    inward.origin = world.leave(*query.hit, -query.hit->geometricNormal);
+    inward.direction =
+        glm::normalize(refractedDirection(-query.wo, query.normal, cosOut, cosOutInside, eta));
+    inward.tMax = depth.distance;
+    // From the surface itself: the step off it would count as distance in the medium.
+    const Vec3 place = query.hit->position + inward.direction * depth.distance;
+    const float leaving = (1.0f - fresnelReflectance(cosOut, eta)) / (eta * eta);
+    return InScattering(query, medium, lightShare(world, isLit), place, -inward.direction,
+                        depth.weight * leaving);
+}
+
+template <typename T>
+using SingleList = InlineVector<T, kMostSingle>;
 
 }  // namespace
 
@@ -207,36 +239,89 @@ bool mayScatterOnce(const World& world, const BodyOptics& optics, const Vec3& pl
                                [&](const auto& light) { return light->importance(box) > 0; });
 }
 
+void singleScattering(const World& world, std::span<SingleQuery> queries,
+                      std::span<SingleFound> found, SingleScatterCounts& counts) {
+    SSS_ASSERT_LE(queries.size(), kMostSingle);
+    counts.samples += queries.size();
+    SingleList<InScattering> insides;
+    SingleList<Ray> rays;
+    SingleList<std::uint32_t> masks;
+    for (SingleQuery& query : queries) {
+        Ray inward;
+        const auto inside = scatteringPlace(world, query, inward);
+        if (!inside) continue;
+        insides.emplace_back(*inside);
+        rays.emplace_back(inward);
+        masks.emplace_back(bodyMask(query.hit->body));
+    }
+    // A ray that leaves the body before it scatters brings nothing.
+    std::array<bool, kMostSingle> blocked;
+    world.rays().occludedTogether(rays.span(), RayScene::Together::Parted, blocked, masks.span());
+    counts.rays += rays.size();
+
+    SingleList<LightQuery> lights;
+    SingleList<InScattering*> asking;  // by light
+    for (std::size_t i = 0; i < insides.size(); ++i) {
+        if (blocked[i]) continue;
+        const auto light = insides[i].choose(world);
+        if (!light) continue;
+        lights.emplace_back(*light);
+        asking.emplace_back(&insides[i]);
+    }
+    std::array<DirectSample, kMostSingle> samples;
+    sampleDirect(world, lights.span(), samples);
+    for (std::size_t k = 0; k < lights.size(); ++k) asking[k]->setLight(samples[k]);
+
+    SingleList<const InScattering*> aimed;  // by line
+    SingleList<Ray> lines;
+    SingleList<std::uint32_t> lineMasks;
+    SingleList<Hit> hits;
+    for (std::size_t i = 0; i < insides.size(); ++i) {
+        Ray line;
+        if (blocked[i] || !insides[i].aim(line)) continue;
+        aimed.emplace_back(&insides[i]);
+        lines.emplace_back(line);
+        lineMasks.emplace_back(masks[i]);
+        hits.emplace_back();
+    }
+    world.rays().intersectTogether(lines.span(), RayScene::Together::Parted, hits.span(),
+                                   lineMasks.span());
+    counts.rays += lines.size();
+
+    SingleList<Ray> shadows;
+    SingleList<SingleFound*> lit;  // by shadow ray
+    for (std::size_t i = 0; i < aimed.size(); ++i) {
+        if (hits[i].geometry == kNoGeometry) continue;
+        const SingleQuery& query = aimed[i]->query();
+        const auto exit = exitAt(world, query, lines[i].direction, hits[i]);
+        if (!exit) continue;
+        SingleFound& here = found[static_cast<std::size_t>(&query - queries.data())];
+        Ray shadow;
+        here.radiance = aimed[i]->gather(*exit, shadow, here);
+        if (isZero(here.radiance)) continue;
+        if (world.hasVolumes()) {
+            here.radiance *= arrivingShare(world, shadow, aimed[i]->volume(), counts.rays);
+            continue;
+        }
+        shadows.emplace_back(shadow);
+        lit.emplace_back(&here);
+    }
+    world.rays().occludedTogether(shadows.span(), RayScene::Together::Parted, blocked);
+    counts.rays += shadows.size();
+    for (std::size_t k = 0; k < lit.size(); ++k)
+        if (blocked[k]) lit[k]->radiance = Rgb(0);
+}
+
 Rgb singleScattering(const World& world, const BodyOptics& optics, const SurfaceHit& hit,
                      const Vec3& wo, const Vec3& normal, Sampler& sampler,
                      const IncomingRadiance& incoming, SingleScatterCounts& counts) {
-    ++counts.samples;
-    const MediumCoefficients medium(optics.material.medium);
-    const float cosOut = glm::dot(normal, wo);
-    const float cosOutInside = refractedCosine(cosOut, optics.eta);
-    if (!(cosOut > 0 && cosOutInside > 0)) return Rgb(0);
-    // Light that comes only from behind goes the other way through a thin part: less of it is left
-    // where it came in, not more.
-    const bool isLit = isLitFromOutside(world, hit);
-    const float both = isLit ? bothWays(cosOutInside, optics.eta) : 1.0f;
-    const Depth depth = sampleDepth(medium, both, sampler);
-    if (isZero(depth.weight)) return Rgb(0);
-
-    // A ray that leaves the body before it scatters brings nothing.
-    Ray inward;
-    inward.origin = world.leave(hit, -hit.geometricNormal);
-    inward.direction =
-        glm::normalize(refractedDirection(-wo, normal, cosOut, cosOutInside, optics.eta));
-    inward.tMax = depth.distance;
-    ++counts.rays;
-    if (world.rays().occluded(inward, bodyMask(hit.body))) return Rgb(0);
-
-    // From the surface itself: the step off it would count as distance in the medium.
-    const Vec3 place = hit.position + inward.direction * depth.distance;
-    const InScattering inside(world, optics, medium, hit, isLit, place, -inward.direction);
-    const float leaving =
-        (1.0f - fresnelReflectance(cosOut, optics.eta)) / (optics.eta * optics.eta);
-    return inside.estimate(sampler, incoming, counts) * depth.weight * leaving;
+    SingleQuery query{&optics, &hit, wo, normal, sampler};
+    SingleFound found;
+    singleScattering(world, std::span(&query, 1), std::span(&found, 1), counts);
+    sampler = query.sampler;
+    if (isZero(found.weight)) return found.radiance;
+    return found.radiance +
+           found.weight * incoming(found.ray, found.origin.sampledFrom, found.origin.pdf);
 }
 
 }  // namespace sss

@@ -1,9 +1,11 @@
 #pragma once
 #include "sss/base/sampler.h"
 #include "sss/integrate/body_optics.h"
+#include "sss/integrate/light_sampling.h"
 #include "sss/world/world.h"
 
 #include <functional>
+#include <span>
 
 namespace sss {
 
@@ -22,8 +24,26 @@ struct SingleScatterCounts {
 /// bounce, on any surface. Nanoseconds.
 bool mayScatterOnce(const World& world, const BodyOptics& optics, const Vec3& place);
 
-/// One estimate of the radiance that leaves a body at `hit` towards `wo` after exactly one
-/// scattering inside it [JMLH01 section 2.3, rigorous form].
+/// Where single scattering is looked for.
+struct SingleQuery {
+    const BodyOptics* optics;
+    const SurfaceHit* hit;  ///< on the body
+    Vec3 wo, normal;        ///< unit, away from the surface
+    Sampler sampler;        ///< of this place's own
+};
+/// What is found there: the radiance that leaves is that of `radiance`, and `weight` times what
+/// arrives along `ray`, weighted against light sampling as `origin` says. No ray if the weight is
+/// 0.
+struct SingleFound {
+    Rgb radiance{0.0f};
+    Rgb weight{0.0f};
+    Ray ray;
+    ScatterOrigin origin;
+};
+inline constexpr std::size_t kMostSingle = 16;
+
+/// One estimate each of the radiance that leaves bodies at at most kMostSingle places after exactly
+/// one scattering inside [JMLH01 section 2.3, rigorous form]; cheaper for places close together.
 ///
 /// A distance s is sampled along the refracted ray by its extinction, on the way out or on both
 /// ways; at that point in-scattered light is found by light sampling, or by sampling the phase
@@ -34,6 +54,10 @@ bool mayScatterOnce(const World& world, const BodyOptics& optics, const Vec3& pl
 ///   s_i'} L_i dw_i ds
 /// with dw_i in exterior solid angle. The factor (mu_i / mu_i') and 1/eta^2 are what [JMLH01 Eq. 7]
 /// leaves out. Needs a closed body: where a ray finds no way out nothing is added.
+void singleScattering(const World& world, std::span<SingleQuery> queries,
+                      std::span<SingleFound> found, SingleScatterCounts& counts);
+
+/// The same for one place, with what `incoming` says of the light that arrives.
 Rgb singleScattering(const World& world, const BodyOptics& optics, const SurfaceHit& hit,
                      const Vec3& wo, const Vec3& normal, Sampler& sampler,
                      const IncomingRadiance& incoming, SingleScatterCounts& counts);

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <optional>
 #include <vector>
 
@@ -291,31 +292,39 @@ TEST(RayScene, LeaveHoldsOnALargeTiltedPlaneThroughTheOrigin) {
 }
 
 TEST(RayScene, RaysTogetherHitWhatTheyHitAlone) {
-    const FloatMesh sphere(makeSphere(10));
-    const RayScene scene = sceneOf(sphere);
+    constexpr std::uint32_t kOne = 2, kOther = 4;
+    const FloatMesh inner(makeSphere(6)), outer(makeSphere(10));
+    const std::array geometries{RayScene::Geometry{inner.positions, inner.faces, kOne},
+                                RayScene::Geometry{outer.positions, outer.faces, kOther}};
+    const RayScene scene(geometries);
     Rng rng(5);
     int hits = 0, occluded = 0;
     for (int bundle = 0; bundle < 300; ++bundle) {
         const std::size_t count = 1 + static_cast<std::size_t>(bundle % 21);
         const Vec3 from = randomDirection(rng) * 40.0f, to = randomDirection(rng) * 11.0f;
         std::vector<Ray> rays;
+        std::vector<std::uint32_t> masks;
         for (std::size_t i = 0; i < count; ++i) {
             rays.push_back(towards(from, to + 0.5f * randomDirection(rng)));
             if (i % 3 == 0) rays.back().tMax = 35;
+            if (bundle % 2 == 0) masks.push_back(i % 2 == 0 ? kOne : kOne | kOther);
         }
+        const auto together =
+            bundle % 3 == 0 ? RayScene::Together::Parted : RayScene::Together::Parallel;
         std::vector<Hit> found(count);
-        scene.intersectTogether(rays, found);
-        const std::uint64_t blocked = scene.occludedTogether(rays, RayScene::Together::Parallel);
-        EXPECT_EQ(scene.occludedTogether(rays, RayScene::Together::Parted), blocked);
-        EXPECT_EQ(blocked >> count, 0u);
+        scene.intersectTogether(rays, together, found, masks);
+        std::array<bool, 21> blocked;
+        scene.occludedTogether(rays, together, blocked, masks);
         for (std::size_t i = 0; i < count; ++i) {
             Hit alone;
-            const bool isHit = scene.intersect(rays[i], alone);
+            const bool isHit =
+                scene.intersect(rays[i], alone, masks.empty() ? kAllGeometry : masks[i]);
             ASSERT_EQ(found[i].geometry != kNoGeometry, isHit);
-            ASSERT_EQ((blocked >> i & 1) != 0, isHit);
+            ASSERT_EQ(blocked[i], isHit);
             occluded += isHit ? 0 : 1;
             if (!isHit) continue;
             ++hits;
+            ASSERT_EQ(found[i].geometry, alone.geometry);
             ASSERT_NEAR(found[i].t, alone.t, 1e-4f);
             ASSERT_NEAR(glm::distance(scene.position(found[i]), scene.position(alone)), 0, 1e-4f);
             if (found[i].face != alone.face) continue;
