@@ -28,7 +28,7 @@ std::vector<T> take(std::span<const T>& from, std::size_t count, bool& ok) {
     return taken;
 }
 
-bool isSound(const ExitanceSlope& slope) {
+bool isFiniteSlope(const ExitanceSlope& slope) {
     return isFinite(slope.x) && isFinite(slope.y) && isFinite(slope.z);
 }
 
@@ -52,7 +52,8 @@ bool forEachGroup(const ExitanceStore::View& store,
         const auto isKnown = [&](std::uint16_t site) { return site < group.values.size(); };
         if (!ok || sites != group.siteOf.size() || !std::ranges::all_of(group.siteOf, isKnown) ||
             !std::ranges::all_of(group.values, [](const Rgb& v) { return isFinite(v); }) ||
-            !std::ranges::all_of(group.slopes, isSound) || !visit(entry.group, std::move(group)))
+            !std::ranges::all_of(group.slopes, isFiniteSlope) ||
+            !visit(entry.group, std::move(group)))
             return false;
     }
     return rest.segments.empty() && rest.siteOf.empty() && rest.values.empty() &&

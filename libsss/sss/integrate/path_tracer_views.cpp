@@ -20,6 +20,8 @@ constexpr float kReflectionEffort = 6.0f, kLeastReflectionShare = 0.25f;
 // Light that a polished body reflects straight from a lamp is followed by chance where it is less
 // than this share of what the body sends out from within: its noise is then a fraction of that.
 constexpr float kFaintReflection = 0.02f;
+// The dimension of the number that decides whether a faint reflection is followed: far beyond those
+// that a path takes in order.
 constexpr std::uint32_t kFollowingDimension = 1u << 20;
 
 // By how much a sample of number `index` counts, of the `all` of a pixel, if only a share of them

@@ -77,8 +77,6 @@ public:
         bool isInfinite;
     };
     std::span<const VisibleLight> visibleLights() const { return visibleLights_; }
-    /// Whether any light is more than a point or a direction.
-    bool hasWideLights() const { return hasEmitters_ || !visibleLights_.empty(); }
     /// The light that an object's faces are, if they are an emitter.
     const MeshLight* emitter(int object) const {
         return emitters_[static_cast<std::size_t>(object)];

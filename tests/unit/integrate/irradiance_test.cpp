@@ -16,9 +16,9 @@ using testing::moved;
 using testing::SceneMaker;
 using testing::turned;
 
-constexpr double kEta = 1.5;  // of marble
+constexpr double kMarbleEta = 1.5;
 
-double entering(double cosine) { return 1 - fresnelReflectance(cosine, kEta); }
+double entering(double cosine) { return 1 - fresnelReflectance(cosine, kMarbleEta); }
 
 struct Lit {
     std::vector<Vec3> positions;  // of the world
@@ -79,7 +79,7 @@ TEST(Irradiance, OfASphereUnderAConstantSky) {
     maker.light(EnvironmentLight{Rgb(2, 1, 0.5f), {}, 0});
     maker.scene.quality.irradianceSamples = 256;
     const Lit lit = light(maker, 1);
-    const double expected = 2 * kPi * hemisphericalTransmittance(kEta);
+    const double expected = 2 * kPi * hemisphericalTransmittance(kMarbleEta);
     EXPECT_NEAR(lit.mean(), expected, 5e-4 * expected);
     for (const Rgb& e : lit.irradiance) {
         EXPECT_NEAR(e.x, expected, 0.02 * expected);
@@ -150,7 +150,7 @@ TEST(Irradiance, BehindAnOccluder) {
     maker.object(RectangleShape{1000, 1000}, maker.material(LambertianMaterial{Rgb(0)}),
                  turned(90, {0, 1, 0}));
     maker.light(EnvironmentLight{Rgb(1), {}, 0});
-    const double expected = 0.5 * kPi * hemisphericalTransmittance(kEta);
+    const double expected = 0.5 * kPi * hemisphericalTransmittance(kMarbleEta);
     EXPECT_NEAR(light(maker, 0.01).mean({0, 1, 0}), expected, 5e-3 * expected);
 }
 
@@ -158,7 +158,7 @@ TEST(Irradiance, BehindAnOccluder) {
 TEST(Irradiance, InsideAnEmittingSphere) {
     SceneMaker maker = withBox({2, 2, 2});
     maker.object(SphereShape{30}, maker.material(EmitterMaterial{Rgb(1.5f), true}));
-    const double expected = 1.5 * kPi * hemisphericalTransmittance(kEta);
+    const double expected = 1.5 * kPi * hemisphericalTransmittance(kMarbleEta);
     EXPECT_NEAR(light(maker, 0.2).mean(), expected, 3e-3 * expected);
 }
 
@@ -174,14 +174,14 @@ SceneMaker overAPlane(const Material& material, double cosSun) {
 
 TEST(Irradiance, ByWayOfALambertianPlane) {
     SceneMaker maker = overAPlane(LambertianMaterial{Rgb(0.6f)}, 0.6);
-    const double expected = 2 * 0.6 * 0.6 * hemisphericalTransmittance(kEta);
+    const double expected = 2 * 0.6 * 0.6 * hemisphericalTransmittance(kMarbleEta);
     EXPECT_NEAR(light(maker, 0.01).mean({0, -1, 0}), expected, 3e-3 * expected);
 }
 
 TEST(Irradiance, ByWayOfATranslucentNeighbour) {
     SceneMaker maker = overAPlane(measured("Marble"), 0.6);
     const World world = maker.world();
-    const double transmittance = hemisphericalTransmittance(kEta);
+    const double transmittance = hemisphericalTransmittance(kMarbleEta);
     const double albedo = static_cast<double>(makeBodyOptics(world)[1]->diffuseAlbedo.x);
     const double leaving = 2 * 0.6 * entering(0.6) * albedo / (kPi * transmittance);
     const double expected = leaving * 2 * kPi * integrate01(1000, [](double mu) {
@@ -207,7 +207,7 @@ TEST(Irradiance, OfALargeFaceHasNoSpeckles) {
                  turned(20, {1, 2, 0.5}));
     maker.light(EnvironmentLight{Rgb(1), {}, 0});
     maker.scene.quality.irradianceSamples = 64;
-    const double expected = kPi * hemisphericalTransmittance(kEta);
+    const double expected = kPi * hemisphericalTransmittance(kMarbleEta);
     for (const Rgb& e : light(maker, 800).irradiance) EXPECT_NEAR(e.x, expected, 0.05 * expected);
 }
 

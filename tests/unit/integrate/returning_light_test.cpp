@@ -14,7 +14,7 @@ namespace {
 using testing::grey;
 using testing::SceneMaker;
 
-constexpr double kEta = 1.4;
+constexpr double kPairEta = 1.4;
 
 // A ball of 6 mm with a hollow of 4 mm, seen from within the hollow only by itself.
 struct HollowBall {
@@ -24,7 +24,7 @@ struct HollowBall {
     BodyCloud cloud;
 
     explicit HollowBall(int bounces) {
-        const int material = maker.material(grey(0.1, 2, kEta));
+        const int material = maker.material(grey(0.1, 2, kPairEta));
         maker.object(SphereShape{6}, material).group = "hollow";
         maker.object(SphereShape{4}, material).group = "hollow";
         maker.light(EnvironmentLight{Rgb(1), {}, 0});
@@ -55,10 +55,10 @@ struct HollowBall {
 double shareThatReturns() {
     double share = 0;
     for (const GaussPoint& point : kGauss16) {
-        const double entering = 1 - fresnelReflectance(point.node, kEta);
+        const double entering = 1 - fresnelReflectance(point.node, kPairEta);
         share += 2 * point.weight * point.node * entering * entering;
     }
-    return share / hemisphericalTransmittance(kEta);
+    return share / hemisphericalTransmittance(kPairEta);
 }
 
 // Of what returns, the diffuse limit sends out again.
@@ -114,7 +114,8 @@ TEST(ReturningLight, BeamsFollowItInTheDark) {
     const std::vector<Rgb> irradiance =
         back.irradiance(std::vector<Rgb>(ball.cloud.points.size(), Rgb(1)));
     const EnteredBeams after = back.beams(before, irradiance);
-    const double steepest = std::sqrt(1 - 1 / (kEta * kEta));  // cosine of the critical angle
+    const double steepest =
+        std::sqrt(1 - 1 / (kPairEta * kPairEta));  // cosine of the critical angle
     for (std::size_t p = 0; p < ball.cloud.points.size(); ++p) {
         const Vec3 normal = decodeUnitVector(ball.cloud.points[p].normal);
         for (std::size_t k = 0; k < EnteredBeams::kPerPoint; ++k) {
@@ -132,7 +133,7 @@ TEST(ReturningLight, IsNoneOfAConvexBodyOrWithoutBounces) {
     const BodyCloud::View view = still.cloud.view();
     EXPECT_TRUE(ReturningLight(*still.world, 0, *still.optics[0], view).isNone());
     SceneMaker maker;
-    maker.object(SphereShape{3}, maker.material(grey(0.1, 2, kEta)));
+    maker.object(SphereShape{3}, maker.material(grey(0.1, 2, kPairEta)));
     maker.scene.quality.bounces = 4;
     maker.scene.quality.spacingMm = 1;
     const World world = maker.world();
