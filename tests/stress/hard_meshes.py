@@ -122,6 +122,6 @@ HARD_MESHES = {
     "all in one place": (obj([(1, 1, 1)] * 8, FACES), REFUSED,
                          "mesh.obj: none of its 12 faces has an area; check the mesh and its scale"),
     "flat": (obj([(x, 0, z) for x, _, z in CORNERS], FACES), REFUSED,
-             "scene.json:1:320: \"thing\" cannot be fitted to a height: it is flat in y; rotate it before "
+             "scene.json:1:321: \"thing\" cannot be fitted to a height: it is flat in y; rotate it before "
              "the fit, or use a scale"),
 }

@@ -74,7 +74,8 @@ def scene(objects, spacing=None, sky=None, **more):
     return json.dumps({
         "metersPerUnit": 0.001,
         "camera": {"position": [11, 9, 33], "lookAt": [0, 0, 0], "fovDegrees": 40},
-        "film": {"width": 12, "height": 12, "samples": 1, "filter": "box"},
+        # As many samples as keep the chance of single scattering through a fin within the tolerance.
+        "film": {"width": 12, "height": 12, "samples": 16, "filter": "box"},
         "quality": quality,
         "materials": {"stone": {"type": "translucent", "medium": "Marble"}},
         "objects": objects, "lights": [light], **more})

@@ -234,11 +234,14 @@ TEST(Render, PlaceDoesNotMatter) {
     EXPECT_LT(largestDifference(picture(home.scene), picture(far.scene)), 1e-4);
 }
 
-// Twice as large in a medium half as dense: the same picture.
+// Twice as large in a medium half as dense: the same picture. By rounding a sum may take a node
+// that it would have opened, or the other way round: a small tolerance keeps that below what is
+// looked for.
 TEST(Render, ScaleDoesNotMatter) {
     SceneMaker small = smallScene();
+    small.scene.quality.tolerance = 0.02;
     for (const double factor : {1e-3, 1e4}) {
-        SceneMaker other = smallScene();
+        SceneMaker other = small;
         for (ObjectSettings& object : other.scene.objects)
             object.transform.emplace_back(glm::scale(DMat4(1.0), DVec3(factor)));
         for (NamedMaterial& m : other.scene.materials)
@@ -252,7 +255,7 @@ TEST(Render, ScaleDoesNotMatter) {
         lamp.centre *= factor;
         lamp.widthMm *= factor;
         lamp.heightMm *= factor;
-        EXPECT_LT(largestDifference(picture(small.scene), picture(other.scene)), 1e-3) << factor;
+        EXPECT_LT(largestDifference(picture(small.scene), picture(other.scene)), 1e-4) << factor;
     }
 }
 
