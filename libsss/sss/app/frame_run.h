@@ -10,9 +10,9 @@ namespace sss {
 /// What a program does with a scene's frames, between its log and its statistics.
 using FrameRun = std::function<void(TerminalReporter& log, Reporter& reporter, RunStats& stats)>;
 
-/// Runs `body` with the threads and the log that were asked for; writes --stats at its end, and
-/// holds
-/// --strict. `outputs` are further files that must be writable, empty names aside. Throws Error.
+/// Runs `body` with the threads and the log that were asked for; writes the statistics at its end
+/// and, if strict, throws where there were warnings. `outputs` are further files that must be
+/// writable, empty names aside. Throws Error.
 void runFrames(const char* program, const CommonOptions& options,
                std::span<const std::filesystem::path> outputs, const FrameRun& body);
 

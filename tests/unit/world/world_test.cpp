@@ -25,6 +25,18 @@ Body bodyOf(const Shape& shape, const DMat4& placed) {
     return maker.world().bodies().at(0);
 }
 
+// No world comes of the scene: bad input, at that place of its file, in these words among others.
+void expectRefused(const SceneMaker& maker, const std::string& where, const std::string& words) {
+    try {
+        maker.world();
+        FAIL() << "not refused";
+    } catch (const Error& error) {
+        EXPECT_EQ(error.kind(), ErrorKind::BadInput);
+        EXPECT_EQ(error.where(), where);
+        EXPECT_NE(std::string(error.what()).find(words), std::string::npos) << error.what();
+    }
+}
+
 // What is warned of, all in one.
 struct Listener final : Reporter {
     void info(std::string_view, std::string_view) override {}
@@ -127,14 +139,7 @@ TEST(Bodies, MaterialsOfAGroupMustAgree) {
               milk = maker.material(measured("Skimmilk"));
     maker.object(BoxShape{DVec3(2)}, stone).group = "pair";
     maker.object(BoxShape{DVec3(2)}, milk, moved({9, 0, 0})).group = "pair";
-    try {
-        maker.world();
-        FAIL() << "not refused";
-    } catch (const Error& error) {
-        EXPECT_EQ(error.kind(), ErrorKind::BadInput);
-        EXPECT_EQ(error.where(), "test.json:2:7");
-        EXPECT_NE(std::string(error.what()).find("\"pair\""), std::string::npos) << error.what();
-    }
+    expectRefused(maker, "test.json:2:7", "\"pair\"");
 }
 
 TEST(Bodies, AFlatPartAmongSmoothOnesStaysFlat) {
@@ -221,13 +226,7 @@ TEST(Objects, FlatOnesCannotBeFitted) {
     object.transform = {turned(90, {1, 0, 0}), FitStep{50, DVec3(0)}};
     object.line = 7;
     object.column = 3;
-    try {
-        maker.world();
-        FAIL() << "not refused";
-    } catch (const Error& error) {
-        EXPECT_EQ(error.where(), "test.json:7:3");
-        EXPECT_NE(std::string(error.what()).find("flat in y"), std::string::npos) << error.what();
-    }
+    expectRefused(maker, "test.json:7:3", "flat in y");
 }
 
 // Two squeezes that the scene reader lets through one by one leave nothing of the object.
@@ -240,14 +239,7 @@ TEST(Objects, TransformsThatAreSingularTogetherAreRefusedWhereTheyStand) {
     object.transform = {squeeze, squeeze};
     object.line = 7;
     object.column = 3;
-    try {
-        maker.world();
-        FAIL() << "not refused";
-    } catch (const Error& error) {
-        EXPECT_EQ(error.kind(), ErrorKind::BadInput);
-        EXPECT_EQ(error.where(), "test.json:7:3");
-        EXPECT_NE(std::string(error.what()).find("singular"), std::string::npos) << error.what();
-    }
+    expectRefused(maker, "test.json:7:3", "singular");
 }
 
 TEST(Objects, MeshFilesAreInSceneUnits) {
