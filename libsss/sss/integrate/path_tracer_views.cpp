@@ -70,7 +70,7 @@ void PathTracer::trace(std::span<const Ray> rays, std::span<Sampler> samplers,
     }
 }
 
-// And what they send out from within by multiple scattering.
+// The surfaces that the views meet first, and what these send out by multiple scattering.
 void PathTracer::findSurfaces(Views& views, PathCounts& counts) const {
     ViewList<Hit> found;
     for (std::size_t i = 0; i < views.rays.size(); ++i) found.emplace_back();
@@ -100,8 +100,7 @@ void PathTracer::findSurfaces(Views& views, PathCounts& counts) const {
     }
 }
 
-// In the diffuse limit, what comes from within
-// is what the surface reflects.
+// In the diffuse limit, what comes from within is what the surface reflects.
 Rgb& PathTracer::reflectedBy(const FirstSurface& surface, Views& views) const {
     FilmSample& seen = views.seen[surface.view];
     return surface.hit.body >= 0 && !exitance_ ? seen.diffusion : seen.surface;
