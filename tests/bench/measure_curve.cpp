@@ -46,17 +46,30 @@ void clearVectorState() {
 #endif
 }
 
+std::span<const Vec3> timedOf(const CurveInput& input) {
+    return input.timed.empty() ? input.receivers : input.timed;
+}
+
 void run(const CurveInput& input, Entry& entry) {
     clearVectorState();
-    entry.answers.resize(input.receivers.size());
+    const std::span<const Vec3> timed = timedOf(input);
+    entry.answers.resize(timed.size());
     entry.counts = {};
     const double began = threadSeconds();
-    entry.method->evaluate(input.receivers, entry.setting, entry.answers, entry.counts);
+    entry.method->evaluate(timed, entry.setting, entry.answers, entry.counts);
     entry.repeats.add(threadSeconds() - began);
 }
 
+// The answers at the receivers whose truth is known.
+void answer(const CurveInput& input, Entry& entry) {
+    if (input.timed.empty()) return;
+    entry.answers.resize(input.receivers.size());
+    MethodCounts uncounted;
+    entry.method->evaluate(input.receivers, entry.setting, entry.answers, uncounted);
+}
+
 JsonValue describe(const CurveInput& input, const Entry& entry) {
-    const auto receivers = static_cast<double>(input.receivers.size());
+    const auto receivers = static_cast<double>(timedOf(input).size());
     JsonValue json = JsonValue::object();
     json.set("setting", entry.setting)
         .set("seconds", entry.repeats.least() / receivers)
@@ -78,6 +91,7 @@ JsonValue measureCurves(const CurveInput& input,
     for (int round = 0; round < input.rounds; ++round)
         for (Entry& entry : entries)
             if (entry.repeats.total() < input.secondsPerSetting) run(input, entry);
+    for (Entry& entry : entries) answer(input, entry);
     JsonValue all = JsonValue::array();
     for (const auto& method : methods) {
         JsonValue curve = JsonValue::array();

@@ -11,6 +11,9 @@ namespace sss::bench {
 struct CurveInput {
     std::span<const Vec3> receivers;
     std::span<const DRgb> truth;  ///< at the receivers
+    /// What time and counts are of, where the truth at so many would take too long; none: the
+    /// receivers.
+    std::span<const Vec3> timed;
     std::vector<double> tolerances;
     int rounds = 3;                ///< every method and setting once a round, in turn
     double secondsPerSetting = 2;  ///< further rounds are left out beyond it

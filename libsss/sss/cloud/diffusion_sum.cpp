@@ -18,6 +18,9 @@ constexpr std::uint32_t kReceiversPerLeaf = 8;
 // A leaf sums over every point that is about as near as its receivers are to each other. Where the
 // points are far denser than the receivers, that is more than each would need for itself.
 constexpr float kMostSpacingsPerLeaf = 4.0f;
+// Points far denser than what the profile tells apart are not taken one by one, and the walk to
+// their nodes is worth sharing again: what a receiver costs ends to grow with the points.
+constexpr float kMostHalfWidthsPerLeaf = 4.0f;
 // A threshold that fits the whole group is this many shares of its darkest leaf at most: bounds are
 // added in quadrature because they are many, not a few large ones.
 constexpr double kLooseShare = 2.0;
@@ -31,6 +34,13 @@ void prefetch(std::span<const T> items) {
     constexpr std::size_t kCacheLine = 64;
     const auto* bytes = reinterpret_cast<const char*>(items.data());
     for (std::size_t i = 0; i < items.size_bytes(); i += kCacheLine) __builtin_prefetch(bytes + i);
+}
+
+float mostLeafRadius(const CloudView& cloud, std::span<const OctreeNode> nodes,
+                     const KernelTable& table) {
+    if (nodes.empty() || cloud.size() == 0) return 0.0f;
+    const float spacing = std::sqrt(nodes[kRoot].areaMm2 / static_cast<float>(cloud.size()));
+    return std::max(kMostSpacingsPerLeaf * spacing, kMostHalfWidthsPerLeaf * table.halfWidthMm());
 }
 
 bool allBelow(const DRgb& a, const DRgb& b) { return a.x <= b.x && a.y <= b.y && a.z <= b.z; }
@@ -54,10 +64,7 @@ DiffusionSum::DiffusionSum(const CloudView& cloud, std::span<const OctreeNode> n
     : cloud_(cloud),
       nodes_(nodes),
       table_(table),
-      mostLeafRadius_(nodes.empty() || cloud.size() == 0
-                          ? 0.0f
-                          : kMostSpacingsPerLeaf * std::sqrt(nodes[kRoot].areaMm2 /
-                                                             static_cast<float>(cloud.size()))) {}
+      mostLeafRadius_(mostLeafRadius(cloud, nodes, table)) {}
 
 void DiffusionSum::needNodes(std::uint32_t first, std::uint32_t count) const {
     if (cloud_.guard) cloud_.guard->needNodes(first, count);
@@ -94,11 +101,8 @@ DRgb DiffusionSum::estimate(const ReceiverCell& cell, Scratch& scratch, SumCount
 
 void DiffusionSum::addPoints(const OctreeNode& leaf, InteractionList& points,
                              SumCounts& counts) const {
-    for (std::uint32_t i = leaf.first; i < leaf.first + leaf.size(); ++i)
-        if (const Rgb flux = cloud_.flux(i); !isZero(flux))
-            points.addPoint(cloud_.points[i].position, flux);
-        else
-            ++counts.pointsSkipped;
+    counts.pointsSkipped += points.addPoints(cloud_.points.subspan(leaf.first, leaf.size()),
+                                             cloud_.irradiance.subspan(leaf.first, leaf.size()));
 }
 
 ErrorBound DiffusionSum::gather(const CellTest& cell, const NodeList& from, NodeList* pending,

@@ -13,14 +13,27 @@ InteractionList::Block& InteractionList::room() {
     return blocks_[used_ - 1];
 }
 
-void InteractionList::addPoint(const Vec3& position, const Rgb& flux) {
-    Block& block = room();
-    const std::size_t i = block.count++;
-    block.x[i] = position.x;
-    block.y[i] = position.y;
-    block.z[i] = position.z;
-    for (int c = 0; c < 3; ++c) block.flux[i][c] = flux[c];
-    block.flux[i][3] = 0.0f;
+std::size_t InteractionList::addPoints(std::span<const SurfacePoint> points,
+                                       std::span<const Rgb> irradiance) {
+    std::size_t added = 0;
+    for (std::size_t next = 0; next < points.size();) {
+        Block& block = room();
+        // A dark point is written, too, and then over it the next: no branch to be mispredicted.
+        std::size_t i = block.count;
+        for (; next < points.size() && i < kBlock; ++next) {
+            const SurfacePoint& point = points[next];
+            const Rgb flux = irradiance[next] * point.areaMm2;
+            block.x[i] = point.position.x;
+            block.y[i] = point.position.y;
+            block.z[i] = point.position.z;
+            for (int c = 0; c < 3; ++c) block.flux[i][c] = flux[c];
+            block.flux[i][3] = 0.0f;
+            i += isZero(flux) ? 0 : 1;
+        }
+        added += i - block.count;
+        block.count = i;
+    }
+    return points.size() - added;
 }
 
 void InteractionList::setNodes(std::span<const OctreeNode> nodes,
@@ -64,14 +77,13 @@ void packScalar(std::span<const OctreeNode> nodes, std::span<const std::uint32_t
         for (int c = 0; c < 3; ++c) to.flux[i][c] = node.flux[c];
         to.flux[i][3] = 0.0f;
     }
-    packLeans(nodes, indices, to);
+    to.isColoured = std::ranges::any_of(
+        indices, [&](std::uint32_t index) { return nodes[index].isColoured(); });
+    if (to.isColoured) packLeans(nodes, indices, to);
 }
 
 void packLeans(std::span<const OctreeNode> nodes, std::span<const std::uint32_t> indices,
                InteractionList::Block& to) {
-    to.isColoured = std::ranges::any_of(
-        indices, [&](std::uint32_t index) { return nodes[index].isColoured(); });
-    if (!to.isColoured) return;
     for (std::size_t i = 0; i < indices.size(); ++i) {
         const OctreeNode& node = nodes[indices[i]];
         const auto& [red, blue] = node.lean;

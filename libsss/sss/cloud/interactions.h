@@ -29,7 +29,8 @@ public:
     };
 
     void clear() { used_ = 0; }
-    void addPoint(const Vec3& position, const Rgb& flux);
+    /// Those of the points that are not dark; says how many are.
+    std::size_t addPoints(std::span<const SurfacePoint> points, std::span<const Rgb> irradiance);
     /// Makes this the list of the nodes with these indices.
     void setNodes(std::span<const OctreeNode> nodes, std::span<const std::uint32_t> indices);
     std::span<const Block> blocks() const { return std::span(blocks_).first(used_); }
@@ -55,7 +56,7 @@ Vec3 leanOf(const InteractionList::Block& block, std::size_t i, int channel);
 /// d^T Q d of source i.
 float quadraticForm(const InteractionList::Block& block, std::size_t i, const Vec3& d);
 
-/// What packScalar() does about colour: `to` has its leans from these nodes.
+/// What packScalar() does about colour where there is any: `to` has its leans from these nodes.
 void packLeans(std::span<const OctreeNode> nodes, std::span<const std::uint32_t> indices,
                InteractionList::Block& to);
 

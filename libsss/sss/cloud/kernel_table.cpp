@@ -29,6 +29,7 @@ KernelTable::KernelTable(const std::array<const Profile*, 3>& profiles, double r
         scale = std::min(scale, r);
     }
     scale = std::max(scale, 1e-15 * reachMm);
+    halfWidthMm_ = static_cast<float>(scale);
     const double wanted = 0.25 * scale * scale;
     // A power of two, so that rows start at round places.
     u0_ = std::exp2(static_cast<float>(std::clamp(std::floor(std::log2(wanted)), -120.0, 120.0)));
@@ -111,6 +112,45 @@ void KernelTable::fitRows(const Regularised& profiles) {
     }
 }
 
+namespace {
+
+// Value and first derivatives of a profile by r, by five-point differences of the even function
+// f(|r|).
+struct Slopes {
+    double f, d1, d2, d3;
+    Slopes(const RegularisedProfile& profile, double r, double h) {
+        std::array<double, 5> y;
+        for (int k = -2; k <= 2; ++k)
+            y[static_cast<std::size_t>(k + 2)] = profile(std::abs(r + k * h));
+        f = y[2];
+        d1 = (y[0] - 8 * y[1] + 8 * y[3] - y[4]) / (12 * h);
+        d2 = (-y[0] + 16 * y[1] - 30 * y[2] + 16 * y[3] - y[4]) / (12 * h * h);
+        d3 = (-y[0] + 2 * y[1] - 2 * y[3] + y[4]) / (2 * h * h * h);
+    }
+};
+
+// Norms of f and its first three derivatives as a function of a 3-D offset of length r, where
+// u + u0 = `u`. Along a unit vector at cosine x to the radius the second is f'' x^2 + f'/r (1 -
+// x^2) and the third f''' x^3 + 3 (f''/r - f'/r^2) x (1 - x^2), with |x (1 - x^2)| <= 0.385. The
+// largest values of its two parts are added: up to half too much, which covers an edge between
+// samples.
+std::array<double, 4> derivativeNorms(const RegularisedProfile& profile, double r, double u) {
+    // What r = 0 is compared with, in steps of the differences.
+    constexpr double kNearZero = 16;
+    const double h = 4e-3 * std::sqrt(u);
+    const Slopes at(profile, r, h);
+    // At r = 0 f'/r is f'', and the third is what f'' changes by: nothing, but where the profile
+    // has an edge there.
+    const bool isAtZero = r < h;
+    const double turn = isAtZero ? at.d2 : at.d1 / r;
+    const double mixed = isAtZero ? (at.d2 - Slopes(profile, kNearZero * h, h).d2) / (kNearZero * h)
+                                  : (at.d2 - turn) / r;
+    return {at.f, std::abs(at.d1), std::max(std::abs(at.d2), std::abs(turn)),
+            std::abs(at.d3) + 3 * 0.385 * std::abs(mixed)};
+}
+
+}  // namespace
+
 void KernelTable::boundDerivatives(const Regularised& profiles) {
     bounds_.assign(rows_.size(), {});
     constexpr int kSamples = 3;
@@ -127,28 +167,12 @@ void KernelTable::boundDerivatives(const Regularised& profiles) {
                 for (int s = 0; s < kSamples; ++s) {
                     const double u = edgeOf(base_ + static_cast<std::int32_t>(i),
                                             static_cast<double>(s) / (kSamples - 1));
-                    const double r = std::sqrt(std::max(u - u0_, 0.0));
-                    // Five-point differences of the even function f(|r|).
-                    const double h = 4e-3 * std::sqrt(u);
-                    std::array<double, 5> f;
-                    for (int k = -2; k <= 2; ++k)
-                        f[static_cast<std::size_t>(k + 2)] =
-                            profiles[static_cast<std::size_t>(c)](std::abs(r + k * h));
-                    const double d1 = (f[0] - 8 * f[1] + 8 * f[3] - f[4]) / (12 * h);
-                    const double d2 =
-                        (-f[0] + 16 * f[1] - 30 * f[2] + 16 * f[3] - f[4]) / (12 * h * h);
-                    const double d3 = (-f[0] + 2 * f[1] - 2 * f[3] + f[4]) / (2 * h * h * h);
-                    const double rr = std::max(r, h);
-                    // Tensors of a radial function along a unit vector at cosine x to the radius:
-                    // second: f'' x^2 + f'/r (1 - x^2);
-                    // third:  f''' x^3 + 3 (f''/r - f'/r^2) x (1 - x^2), |x (1 - x^2)| <= 0.385.
-                    const double mixed = std::abs(d2 / rr - d1 / (rr * rr));
+                    const std::array<double, 4> norms =
+                        derivativeNorms(profiles[static_cast<std::size_t>(c)],
+                                        std::sqrt(std::max(u - u0_, 0.0)), u);
                     Rgb* out = bounds_[i].derivative;
-                    const std::array<double, 4> bound{f[2], std::abs(d1),
-                                                      std::max(std::abs(d2), std::abs(d1) / rr),
-                                                      std::abs(d3) + 3 * 0.385 * mixed};
                     for (std::size_t k = 0; k < 4; ++k)
-                        out[k][c] = std::max(out[k][c], static_cast<float>(kSafety * bound[k]));
+                        out[k][c] = std::max(out[k][c], static_cast<float>(kSafety * norms[k]));
                 }
             }
     });

@@ -68,6 +68,8 @@ public:
     std::size_t rowCount() const { return rows_.size(); }
     std::int32_t baseRow() const { return base_; }
     float offsetMm2() const { return u0_; }
+    /// The distance at which the narrowest of the profiles has fallen to half of its peak, to 20 %.
+    float halfWidthMm() const { return halfWidthMm_; }
 
 private:
     std::size_t rowOf(float distanceSquaredMm2) const {
@@ -80,6 +82,7 @@ private:
     void fitRows(const Regularised& profiles);
     void boundDerivatives(const Regularised& profiles);
 
+    float halfWidthMm_ = 0;
     float u0_ = 0;           // mm^2
     std::int32_t base_ = 0;  // bits(u0) >> kShift
     std::vector<Row> rows_;  // the last row is all zero

@@ -78,14 +78,18 @@ HWY_ATTR void packAny(std::span<const OctreeNode> nodes, std::span<const std::ui
     auto& m = to.moments;
     readColumns(records, kNodeFloats, index, whole, {0, 7, 9},
                 {{to.x, to.y, to.z, unused}, {m[0], m[1], m[2], m[3]}, {m[2], m[3], m[4], m[5]}});
-    // Flux and area; the area is not a fourth channel.
+    // Flux and area; the area is not a fourth channel. The six floats of the leans, two of them
+    // twice.
     const hn::FixedTag<float, 4> d;
     const auto isChannel = hn::FirstN(d, 3);
+    auto leans = hn::Zero(d);
     for (std::size_t i = 0; i < indices.size(); ++i) {
-        const auto flux = hn::LoadU(d, records + kNodeFloats * indices[i] + 3);
-        hn::Store(hn::IfThenElseZero(isChannel, flux), d, to.flux[i]);
+        const float* node = records + kNodeFloats * indices[i];
+        hn::Store(hn::IfThenElseZero(isChannel, hn::LoadU(d, node + 3)), d, to.flux[i]);
+        leans = hn::Or(leans, hn::Or(hn::LoadU(d, node + 16), hn::LoadU(d, node + 18)));
     }
-    packLeans(nodes, indices, to);
+    to.isColoured = !hn::AllTrue(d, hn::Eq(leans, hn::Zero(d)));
+    if (to.isColoured) packLeans(nodes, indices, to);
 }
 
 // What the nodes have to be judged by, each quantity a row.

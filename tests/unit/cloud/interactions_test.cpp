@@ -47,6 +47,14 @@ std::vector<OctreeNode> randomSources(std::size_t count, std::uint64_t seed, boo
     return nodes;
 }
 
+// A point of area 1.
+void addPoint(InteractionList& list, const Vec3& position, const Rgb& flux) {
+    SurfacePoint point;
+    point.position = position;
+    point.areaMm2 = 1;
+    list.addPoints({&point, 1}, {&flux, 1});
+}
+
 InteractionList randomList(std::size_t count, std::uint64_t seed, bool withMoments,
                            bool isColoured = false) {
     const std::vector<OctreeNode> nodes = randomSources(count, seed, isColoured);
@@ -54,7 +62,7 @@ InteractionList randomList(std::size_t count, std::uint64_t seed, bool withMomen
     if (withMoments)
         list.setNodes(nodes, backwards(count));
     else
-        for (const OctreeNode& node : nodes) list.addPoint(node.centroid, node.flux);
+        for (const OctreeNode& node : nodes) addPoint(list, node.centroid, node.flux);
     list.pad();
     return list;
 }
@@ -258,12 +266,33 @@ TEST(LocalExpansion, FollowsTheSumToSecondOrder) {
         expectSecondOrder(randomList(100, 3, true, isColoured));
 }
 
+TEST(Accumulate, DarkPointsAreLeftOut) {
+    // More than a block, of which every third is dark: the others stand in their order.
+    std::vector<SurfacePoint> points(200);
+    std::vector<Rgb> irradiance(200);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        points[i].position = Vec3(static_cast<float>(i), 2, 3);
+        points[i].areaMm2 = 2;
+        irradiance[i] = i % 3 == 0 ? Rgb(0.0f) : Rgb(1.0f, static_cast<float>(i), 0.0f);
+    }
+    InteractionList list;
+    EXPECT_EQ(list.addPoints(points, irradiance), 67u);
+    ASSERT_EQ(list.size(), 133u);
+    list.pad();
+    std::size_t place = 1;
+    for (const InteractionList::Block& block : list.blocks())
+        for (std::size_t k = 0; k < block.count; ++k, place += place % 3 == 1 ? 1 : 2) {
+            EXPECT_EQ(block.x[k], static_cast<float>(place));
+            EXPECT_EQ(block.flux[k][1], 2.0f * static_cast<float>(place));
+        }
+}
+
 TEST(Accumulate, ListsCanBeUsedAgain) {
     InteractionList list = randomList(300, 1, true);
     list.clear();
     EXPECT_EQ(list.size(), 0u);
     EXPECT_TRUE(list.blocks().empty());
-    list.addPoint({1, 2, 3}, Rgb(1.0f));
+    addPoint(list, {1, 2, 3}, Rgb(1.0f));
     list.pad();
     EXPECT_EQ(list.size(), 1u);
     const Optics optics("marble");
