@@ -5,6 +5,7 @@ several runs; inputs that they stumble over stay in OUT/found until they are tak
 fuzzing.py BIN OUT EXECUTIONS, with BIN the folder of a build by the preset "fuzz"."""
 
 import json
+import os
 import pathlib
 import re
 import subprocess
@@ -19,8 +20,9 @@ MESHES = ("obj", "ply", "off", "stl")
 # A cache is as large as its points; everything else may be wrong in little.
 LONGEST = {"cache": 32768, "exitance": 32768}
 EXECUTIONS = 10 ** 7
-# A turn of one reader; what it has found interesting is where its next turn starts.
-SECONDS_A_TURN = 60
+# A turn of one reader; what it has found interesting is where its next turn starts. One that is slow,
+# with less than half of an equal share so far, has longer ones.
+SECONDS_A_TURN, SECONDS_IF_BEHIND = 90, 270
 # By the wall: at the lowest priority on a busy machine a second may take a minute.
 HANGS_AFTER_SECONDS = 120
 MOST_SECONDS = 3 * 3600
@@ -34,10 +36,12 @@ def fuzz(target, bin_folder, out, seconds):
     command = ["nice", "-n", "19", str(bin_folder / f"sss-fuzz-{target}"),
                f"-max_total_time={seconds}", f"-timeout={HANGS_AFTER_SECONDS}", "-rss_limit_mb=2048",
                "-malloc_limit_mb=600", f"-max_len={LONGEST.get(target, 4096)}",
-               "-print_final_stats=1", f"-artifact_prefix={found}/"]
+               "-print_final_stats=1", f"-artifact_prefix={found}/", "-print_funcs=0"]
     if target == "scene" or target in MESHES:
         command.append(f"-dict={HERE / 'fuzz' / ('scene' if target == 'scene' else 'mesh')}.dict")
-    done = subprocess.run(command + [str(kept), str(HERE / "corpus" / target)],
+    # Names of functions take longer to find than thousands of executions; a finding can be run once more.
+    environment = {**os.environ, "ASAN_OPTIONS": "symbolize=0", "UBSAN_OPTIONS": "symbolize=0"}
+    done = subprocess.run(command + [str(kept), str(HERE / "corpus" / target)], env=environment,
                           stdin=subprocess.DEVNULL, capture_output=True, check=False)
     words = done.stderr.decode(errors="replace")
     (out / f"fuzz-{target}.log").write_text(words)
@@ -59,6 +63,10 @@ class Tally:
     def total(self):
         return sum(self.executions.values())
 
+    def turn_seconds(self, target):
+        behind = self.executions[target] < self.total() / len(TARGETS) / 2
+        return SECONDS_IF_BEHIND if behind else SECONDS_A_TURN
+
     def add(self, target, count):
         self.executions[target] += count
         self.file.write_text(json.dumps(self.executions) + "\n")
@@ -70,7 +78,7 @@ def all_rows(bin_folder, out, least=EXECUTIONS):
     while tally.total() < least and time.monotonic() - began < MOST_SECONDS:
         before = tally.total()
         for target in TARGETS:
-            tally.add(target, fuzz(target, bin_folder, out, SECONDS_A_TURN))
+            tally.add(target, fuzz(target, bin_folder, out, tally.turn_seconds(target)))
         print(f"fuzzing: {tally.total():,} executions of {least:,}", flush=True)
         if tally.total() == before:
             break  # not one of them runs

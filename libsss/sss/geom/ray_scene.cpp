@@ -178,13 +178,18 @@ RTCIntersectContext contextOf(RayScene::Together together) {
 struct RayScene::Impl {
     const Device& device = sharedDevice();
     RTCScene scene = nullptr;
+    bool hasFailed = false;
 
     Impl() {
         device.forgetErrors();
         scene = rtcNewScene(device.get());
         device.check("making a scene");
     }
-    ~Impl() { rtcReleaseScene(scene); }
+    /// A scene whose build has failed stays, cleared by Embree: a thread whose memory for building
+    /// could not be noted would go on writing into it, whatever lay there by then.
+    ~Impl() {
+        if (!hasFailed) rtcReleaseScene(scene);
+    }
     Impl(const Impl&) = delete;
     Impl& operator=(const Impl&) = delete;
 
@@ -217,8 +222,10 @@ RayScene::RayScene(std::span<const Geometry> geometries) : impl_(std::make_uniqu
         for (const UVec3& face : input.faces)
             for (int corner = 0; corner < 3; ++corner) bounds_.add(input.positions[face[corner]]);
     }
+    impl_->hasFailed = true;
     rtcCommitScene(impl_->scene);
     device.check("building the ray hierarchy");
+    impl_->hasFailed = false;
 }
 
 RayScene::~RayScene() = default;

@@ -118,6 +118,7 @@ struct CacheScene {
     SilentReporter silent;
     World world{readSceneText(kScene, "scene.json"), silent};
     std::vector<std::unique_ptr<BodyOptics>> optics = makeBodyOptics(world);
+    std::vector<BodyInputs> inputs = worldInputs(world, optics);
     KernelTable table{optics.front()->profilePointers(), 10.0, 1.0};
 };
 
@@ -127,7 +128,7 @@ void readCacheBytes(std::span<const std::byte> input) {
         const std::filesystem::path& path = inputFile("ssc", bytes);
         accepts([&] { describeCache(path); });
         accepts([&] {
-            const CloudCache cache(path, scene.world, scene.optics);
+            const CloudCache cache(path, scene.world, scene.optics, scene.inputs);
             const BodyCloud::View view = cache.view(0);
             const DiffusionSum sum(view.cloud, view.nodes, scene.table);
             DiffusionSum::Scratch scratch;

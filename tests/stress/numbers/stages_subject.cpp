@@ -25,6 +25,7 @@ const TriedStage kTried[] = {
     {"irradiance", ".ssi", {}},
     {"beams", ".ssb", {".ssd"}},
     {"shape", ".ssd", {}},
+    {"exitance", ".sse", {}},
 };
 
 /// A folder's files by extension; there is one of each.
@@ -43,7 +44,8 @@ void append(std::string& bytes, std::span<const T> values) {
     bytes.append(reinterpret_cast<const char*>(values.data()), values.size_bytes());
 }
 
-/// Pass 1 by way of a folder: what pass 2 is given, as bytes.
+/// Pass 1 and a look at the body by way of a folder: what pass 2 is given and finds, as
+/// bytes.
 std::string passBy(const std::filesystem::path& folder, const std::shared_ptr<const World>& world,
                    Reporter& reporter) {
     RunStats stats("sss-stress");
@@ -56,6 +58,11 @@ std::string passBy(const std::filesystem::path& folder, const std::shared_ptr<co
         append(bytes, body.cloud.nodes);
         append(bytes, body.cloud.solved);
     }
+    ExitanceChain exitance(chain.folder(), reporter, stats);
+    const auto fields = exitance.fields(chain.fieldInputs(), world->scene().quality.tolerance, {});
+    const Rgb seen = fields[0]->exitance(0, Vec2(0.2f));
+    append(bytes, std::span(&seen, 1));
+    exitance.finishFrame(true);
     return bytes;
 }
 
