@@ -18,6 +18,7 @@ constexpr Subject kSubjects[] = {
     {"machine", bench::measureMachine},     {"reference", bench::makeReference},
     {"frame", bench::measureFrame},         {"scaling", bench::measureScaling},
     {"hierarchy", bench::measureHierarchy}, {"picture", bench::measurePicture},
+    {"exitance", bench::measureExitance},
 };
 
 int run(int argc, const char* const* argv) {
@@ -28,7 +29,7 @@ int run(int argc, const char* const* argv) {
             return 0;
         }
     throw Error(ErrorKind::Usage, "command line", "no subject \"" + arguments.subject() + "\"",
-                "machine, reference, frame, scaling, hierarchy or picture");
+                "machine, reference, frame, exitance, scaling, hierarchy or picture");
 }
 
 }  // namespace

@@ -13,6 +13,8 @@ JsonValue measureMachine(const Arguments& arguments);
 JsonValue makeReference(const Arguments& arguments);
 /// A cache's errors against such a reference, and where they come from.
 JsonValue measureFrame(const Arguments& arguments);
+/// What the exitance that the camera sees costs, by the profile and by diffusion on the shape.
+JsonValue measureExitance(const Arguments& arguments);
 /// Cost of a receiver against the number of points.
 JsonValue measureScaling(const Arguments& arguments);
 /// Error over time of all methods that sum over the same points.

@@ -19,6 +19,7 @@ JsonValue describe(const ShapeExitance& shape) {
         .set("localInteractions", shape.report.layers.localInteractions)
         .set("nodeInteractions", shape.report.layers.nodeInteractions)
         .set("pointInteractions", shape.report.layers.pointInteractions)
+        .set("profileInteractions", shape.profile.interactions())
         .set("sourceInteractions", shape.report.sources.interactions())
         .set("singleSeconds", shape.singleSeconds)
         .set("sourceSeconds", shape.report.sourceSeconds)

@@ -4,6 +4,7 @@
 #include "sss/optics/fresnel.h"
 #include "sss/shape/depth_rule.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -88,7 +89,9 @@ private:
             const DepthRule::Node& node = nodes_[k];
             const DRgb source = power * node.weight * medium_.reducedAlbedo;
             const DVec3 at = DVec3(ray.origin) + DVec3(ray.direction) * node.depthMm;
-            out.sources.push_back({Vec3(back_.transformPoint(at)), Rgb(source), k});
+            const double way = std::min(node.depthMm, length - node.depthMm);
+            out.sources.push_back(
+                {Vec3(back_.transformPoint(at)), Rgb(source), k, static_cast<float>(way)});
             out.scattered += source;
         }
     }

@@ -22,17 +22,19 @@ constexpr double kFirstTolerance = 5;
 
 // What the profile gives at the points themselves.
 std::vector<Rgb> profileExitance(const BodyField& field, const BodyCloud::View& cloud,
-                                 double tolerance) {
+                                 double tolerance, SumCounts& counts) {
     std::vector<Vec3> places;
     places.reserve(cloud.cloud.points.size());
     for (const SurfacePoint& p : cloud.cloud.points) places.push_back(p.position);
     std::vector<Rgb> exitance(places.size());
+    std::vector<SumCounts> parts((places.size() + kReceiversPerSum - 1) / kReceiversPerSum);
     parallelFor(places.size(), kReceiversPerSum, [&](std::size_t begin, std::size_t end) {
         DiffusionSum::Scratch scratch;
-        SumCounts counts;
         field.sum().evaluate(std::span(places).subspan(begin, end - begin), tolerance,
-                             std::span(exitance).subspan(begin, end - begin), scratch, counts);
+                             std::span(exitance).subspan(begin, end - begin), scratch,
+                             parts[begin / kReceiversPerSum]);
     });
+    for (const SumCounts& part : parts) counts.add(part);
     return exitance;
 }
 
@@ -95,7 +97,7 @@ ShapeExitance solveShape(const World& world, int bodyIndex, const BodyOptics& op
         medium.scatters[c] = false;  // no sources, nothing to solve
     }
     const BodyField field(body, optics, cloud, tolerance);
-    const std::vector<Rgb> flat = profileExitance(field, cloud, tolerance);
+    const std::vector<Rgb> flat = profileExitance(field, cloud, tolerance, result.profile);
     BeamSources light = placeBeamSources(world, bodyIndex, cloud, beams, medium);
     const ShapeSolver solver(cloud.cloud, cloud.nodes, medium, cloud.spacingMm,
                              body.mesh.bounds().diagonal() * 1.01, tolerance);

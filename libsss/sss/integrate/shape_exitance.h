@@ -14,6 +14,7 @@ namespace sss {
 struct ShapeExitance {
     std::vector<SolvedExitance> solved;  ///< by point
     ShapeReport report;
+    SumCounts profile;  ///< what the first guess took, the profile's answer at the points
     /// Channels that keep the profile's answer: their points are too far apart to solve for, or
     /// what was solved does not keep the light. Those have no shares below.
     std::array<bool, 3> isTooCoarse{}, isUnsound{};

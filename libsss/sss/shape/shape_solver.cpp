@@ -2,6 +2,8 @@
 
 #include "sss/base/parallel.h"
 #include "sss/base/stopwatch.h"
+#include "sss/cloud/nearest_points.h"
+#include "sss/shape/disk_mean.h"
 #include "sss/shape/screened_green.h"
 
 #include <algorithm>
@@ -22,6 +24,8 @@ constexpr int kMostIterations = 60;
 constexpr double kCrudest = 0.1;
 // Enough for the sums to take far sources by groups of receivers, few enough for threads to share.
 constexpr std::size_t kReceiversPerSum = 512;
+// In radii of a cell: a source farther from it is for it as for its point.
+constexpr double kFarFromCell = 3.0;
 // Below this part of the brightest fluence nobody asks for relative accuracy.
 constexpr double kDarkest = 1e-6;
 
@@ -69,8 +73,7 @@ void ShapeSolver::measureFill() {
 std::vector<DRgb> ShapeSolver::direct(std::span<const VolumeSource> sources, double tolerance,
                                       SumCounts& counts) const {
     const std::size_t n = cloud_.size();
-    const KernelTable near =
-        greenTable(medium_.screening, reachMm_, 0.5 * spacingMm_ / std::sqrt(kPi));
+    const KernelTable near = greenTable(medium_.screening, reachMm_, spacingMm_ / std::sqrt(kPi));
     std::vector<Vec3> places;
     for (const SurfacePoint& p : cloud_.points) places.push_back(p.position);
     std::vector<DRgb> fluence(n, DRgb(0));
@@ -87,7 +90,46 @@ std::vector<DRgb> ShapeSolver::direct(std::span<const VolumeSource> sources, dou
         for (const SumCounts& part : parts) counts.add(part);
         for (std::size_t i = 0; i < n; ++i) fluence[i] += DRgb(values[i]) / medium_.diffusionMm;
     }
+    correctNearestCells(sources, near, places, fluence);
     return fluence;
+}
+
+// A source less than a spacing below a point gives it more than the mean of its cell, and every
+// point of a lit place has one: all light would be up to a tenth too much, and uneven from point to
+// point. For the cells beside, the table is right.
+void ShapeSolver::correctNearestCells(std::span<const VolumeSource> sources,
+                                      const KernelTable& near, std::span<const Vec3> points,
+                                      std::span<DRgb> fluence) const {
+    // No cell is much larger than the mean.
+    const double farthest = 1.5 * kFarFromCell * spacingMm_ / std::sqrt(kPi);
+    std::vector<const VolumeSource*> close;
+    std::vector<Vec3> places;
+    for (const VolumeSource& source : sources) {
+        if (double{source.wayMm} > farthest) continue;
+        close.push_back(&source);
+        places.push_back(source.position);
+    }
+    if (close.empty()) return;
+    std::vector<std::uint32_t> nearest(close.size());
+    NearestPoints(points).query(places, 1, nearest);
+    std::vector<DRgb> more(close.size(), DRgb(0));
+    parallelFor(close.size(), kReceiversPerSum, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t s = begin; s < end; ++s) {
+            const SurfacePoint& point = cloud_.points[nearest[s]];
+            const Vec3 away = places[s] - point.position;
+            const float squared = glm::dot(away, away);
+            const double radius = std::sqrt(double{point.areaMm2} / kPi);
+            if (double{squared} > std::pow(kFarFromCell * radius, 2)) continue;
+            const double depth = std::abs(double{glm::dot(away, decodeUnitVector(point.normal))});
+            const double aside = std::sqrt(std::max(0.0, double{squared} - depth * depth));
+            const DRgb missing = diskMeanOfGreen(medium_.screening, radius, aside, depth) -
+                                 DRgb(near.evaluate(squared));
+            for (int c = 0; c < 3; ++c)
+                if (medium_.scatters[c])
+                    more[s][c] = double{close[s]->power[c]} * missing[c] / medium_.diffusionMm[c];
+        }
+    });
+    for (std::size_t s = 0; s < close.size(); ++s) fluence[nearest[s]] += more[s];
 }
 
 ShapeReport ShapeSolver::solve(std::span<const VolumeSource> sources, std::span<DRgb> fluence,

@@ -15,6 +15,8 @@ struct VolumeSource {
     /// Sources of a kind stand at like depths along their beams: their colours differ as the
     /// light's do, not with depth.
     std::uint32_t kind = 0;
+    /// Along its beam to the surface, the shorter way; 0 if nobody knows.
+    float wayMm = 0;
 };
 
 /// Sources of one kind as the sums over points take them: points of unit area. A node of the octree
