@@ -30,9 +30,17 @@ Scene onShape(Scene scene) {
     return scene;
 }
 
-// A fresh field, asked for everything that is seen.
-void lookEverywhere(const Stage& stage, const BodyCloud::View& cloud,
-                    std::span<const Receiver> receivers, Cost& cost) {
+// Every face.
+std::vector<Receiver> everywhere(const TriangleMesh& mesh) {
+    std::vector<Receiver> receivers;
+    for (FaceIndex face = 0; face < mesh.faceCount(); ++face)
+        receivers.push_back({face, Vec2(1.0f / 3), {}});
+    return receivers;
+}
+
+// A fresh field, asked at all of these places.
+void lookAt(const Stage& stage, const BodyCloud::View& cloud, std::span<const Receiver> receivers,
+            Cost& cost) {
     const double began = processSeconds();
     const BodyField field(stage.body(), stage.optics(), cloud,
                           stage.world().scene().quality.tolerance);
@@ -50,7 +58,8 @@ JsonValue measureExitance(const Arguments& arguments) {
 
     const Scene scene = readScene(arguments.scene(), Quality{});
     const Stage flat(scene), shaped(onShape(scene));
-    const std::vector<Receiver> receivers = receiversInView(flat, count);
+    const std::vector<Receiver> seen = receiversInView(flat, count),
+                                all = everywhere(flat.body().mesh);
     SilentReporter silent;
     BodyReport report;
     const SurfaceSamples samples =
@@ -60,9 +69,10 @@ JsonValue measureExitance(const Arguments& arguments) {
     const EnteredBeams beams = beamsInOrder(samples, std::move(light.beams));
     const BodyCloud cloud = buildCloud(samples, std::move(light.irradiance), report);
 
-    Cost profile, solution, corrected;
+    Cost profileSeen, profileAll, solution, correctedSeen, correctedAll;
     for (int round = 0; round < rounds; ++round) {
-        lookEverywhere(flat, cloud.view(), receivers, profile);
+        lookAt(flat, cloud.view(), seen, profileSeen);
+        lookAt(flat, cloud.view(), all, profileAll);
         const double began = processSeconds();
         const std::vector<SolvedExitance> solved = shapeSolution(
             shaped.world(), 0, samples, beams, shaped.allOptics(), cloud.view(), silent, report);
@@ -72,16 +82,21 @@ JsonValue measureExitance(const Arguments& arguments) {
                                 report.shape->profile.interactions();
         BodyCloud::View view = cloud.view();
         view.solved = solved;
-        lookEverywhere(shaped, view, receivers, corrected);
+        lookAt(shaped, view, seen, correctedSeen);
+        lookAt(shaped, view, all, correctedAll);
     }
+    const auto pair = [](const Cost& ofSeen, const Cost& ofAll) {
+        JsonValue value = JsonValue::object();
+        value.set("seen", ofSeen.json()).set("everywhere", ofAll.json());
+        return value;
+    };
     JsonValue json = JsonValue::object();
     json.set("tolerance", scene.quality.tolerance)
         .set("points", cloud.points.size())
-        .set("receivers", receivers.size())
-        .set("iterations", report.shape->report.solve.iterations)
-        .set("profile", profile.json())
+        .set("sums", report.shape->report.layers.sums)
         .set("solution", solution.json())
-        .set("corrected", corrected.json());
+        .set("profile", pair(profileSeen, profileAll))
+        .set("corrected", pair(correctedSeen, correctedAll));
     return json;
 }
 

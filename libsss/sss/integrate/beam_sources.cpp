@@ -4,7 +4,6 @@
 #include "sss/optics/fresnel.h"
 #include "sss/shape/depth_rule.h"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -30,8 +29,9 @@ public:
           back_(place_.inverse()) {}
 
     // The beams of one point (body space), each with its part of `power`. Appends to `out`.
-    void follow(const SurfacePoint& point, std::span<const std::uint32_t> beams, const DRgb& power,
-                BeamSources& out) {
+    void follow(std::uint32_t index, const SurfacePoint& point,
+                std::span<const std::uint32_t> beams, const DRgb& power, BeamSources& out) {
+        point_ = index;
         const SurfaceHit start = world_.surfaceOf(body_, point.face, point.barycentrics());
         Ray ray;
         ray.origin = world_.leave(start, -start.geometricNormal);
@@ -49,7 +49,7 @@ public:
         if (!(maxComponent(powerWithin) > 0)) return;
         const double count = maxComponent(powerWithin) / maxComponent(share);
         ray.direction = within / static_cast<float>(count);
-        place(ray, std::numeric_limits<double>::infinity(), powerWithin, out);
+        place(ray, std::numeric_limits<double>::infinity(), powerWithin, point_, out);
     }
 
 private:
@@ -64,7 +64,7 @@ private:
             const double length =
                 leaves ? static_cast<double>(hit.t) : std::numeric_limits<double>::infinity();
             if (!leaves && leg == 0) return false;
-            place(ray, length, left, out);
+            place(ray, length, left, leg == 0 ? point_ : VolumeSource::kNowhere, out);
             if (!leaves) return true;
             left *= glm::exp(-medium_.extinction * length);
             const SurfaceHit exit = world_.surfaceAt(hit);
@@ -82,16 +82,15 @@ private:
         return true;
     }
 
-    void place(const Ray& ray, double length, const DRgb& power, BeamSources& out) {
+    void place(const Ray& ray, double length, const DRgb& power, std::uint32_t from,
+               BeamSources& out) {
         nodes_.clear();
         rule_.append(length, nodes_);
         for (std::uint32_t k = 0; k < nodes_.size(); ++k) {
             const DepthRule::Node& node = nodes_[k];
             const DRgb source = power * node.weight * medium_.reducedAlbedo;
             const DVec3 at = DVec3(ray.origin) + DVec3(ray.direction) * node.depthMm;
-            const double way = std::min(node.depthMm, length - node.depthMm);
-            out.sources.push_back(
-                {Vec3(back_.transformPoint(at)), Rgb(source), k, static_cast<float>(way)});
+            out.sources.push_back({Vec3(back_.transformPoint(at)), Rgb(source), k, from});
             out.scattered += source;
         }
     }
@@ -102,6 +101,7 @@ private:
     const DiffusionConstants& medium_;
     const DepthRule& rule_;
     RigidTransform place_, back_;
+    std::uint32_t point_ = 0;  // of the cloud
     std::vector<DepthRule::Node> nodes_;
 };
 
@@ -120,7 +120,8 @@ BeamSources placeBeamSources(const World& world, int body, const BodyCloud::View
                 DRgb(cloud.cloud.irradiance[p]) * double{cloud.cloud.points[p].areaMm2};
             part.entered += power;
             if (!(maxComponent(power) > 0)) continue;
-            walk.follow(cloud.cloud.points[p], beams.of(p), power, part);
+            walk.follow(static_cast<std::uint32_t>(p), cloud.cloud.points[p], beams.of(p), power,
+                        part);
         }
     });
     BeamSources all;

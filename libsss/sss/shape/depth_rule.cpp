@@ -12,8 +12,8 @@ namespace {
 
 // Channels whose extinction differs by less share their places.
 constexpr double kLikeExtinction = 1.6;
-// Optical depth of a millionth.
-constexpr double kEnd = 14.0;
+// exp(-9) is 1e-4.
+constexpr double kEnd = 9.0;
 
 // Screening of this part of the extinction and more is strong absorption: the beam is parted at
 // these optical depths.

@@ -20,7 +20,8 @@ public:
     explicit DepthRule(const DiffusionConstants& medium);
     /// For a beam that leaves the body after `lengthMm`, infinity for never. Appends.
     void append(double lengthMm, std::vector<Node>& nodes) const;
-    /// No channel has more than a millionth of its light left beyond this.
+    /// No channel has more than 1e-4 of its light left beyond this; a beam that leaves the body
+    /// later is taken as endless.
     double reachMm() const { return reachMm_; }
 
 private:

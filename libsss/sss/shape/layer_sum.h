@@ -66,7 +66,7 @@ private:
 };
 
 /// A cell's receivers at most.
-inline constexpr std::size_t kMostLayerReceivers = 32;
+inline constexpr std::size_t kMostLayerReceivers = 24;
 /// Adds a list's nodes and points at up to kMostLayerReceivers places; chosen at run
 /// time for the processor.
 void accumulateLayers(const ChargeTree& tree, const KernelTable& green, const LayerList& list,

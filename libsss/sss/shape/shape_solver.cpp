@@ -2,7 +2,6 @@
 
 #include "sss/base/parallel.h"
 #include "sss/base/stopwatch.h"
-#include "sss/cloud/nearest_points.h"
 #include "sss/shape/disk_mean.h"
 #include "sss/shape/screened_green.h"
 
@@ -18,7 +17,7 @@ namespace {
 constexpr float kLeastFill = 0.05f, kMostFill = 1.0f;
 // Of the tolerance. Measured on half-lit balls of marble and ketchup, 12 mean free paths wide
 // (shape_solver_test), against a far finer solution: all together add 0.2 to 0.5 of it, RMS.
-constexpr double kLayerShare = 0.5, kFillShare = 0.25, kSourceShare = 1.0, kResidualShare = 0.1;
+constexpr double kLayerShare = 0.5, kFillShare = 0.25, kSourceShare = 1.0, kResidualShare = 0.2;
 constexpr int kMostIterations = 60;
 // A product's error beyond this share of its own size no longer helps the next.
 constexpr double kCrudest = 0.1;
@@ -90,33 +89,22 @@ std::vector<DRgb> ShapeSolver::direct(std::span<const VolumeSource> sources, dou
         for (const SumCounts& part : parts) counts.add(part);
         for (std::size_t i = 0; i < n; ++i) fluence[i] += DRgb(values[i]) / medium_.diffusionMm;
     }
-    correctNearestCells(sources, near, places, fluence);
+    correctOwnCells(sources, near, fluence);
     return fluence;
 }
 
-// A source less than a spacing below a point gives it more than the mean of its cell, and every
+// A source less than a spacing below its point gives it more than the mean of its cell, and every
 // point of a lit place has one: all light would be up to a tenth too much, and uneven from point to
 // point. For the cells beside, the table is right.
-void ShapeSolver::correctNearestCells(std::span<const VolumeSource> sources,
-                                      const KernelTable& near, std::span<const Vec3> points,
-                                      std::span<DRgb> fluence) const {
-    // No cell is much larger than the mean.
-    const double farthest = 1.5 * kFarFromCell * spacingMm_ / std::sqrt(kPi);
-    std::vector<const VolumeSource*> close;
-    std::vector<Vec3> places;
-    for (const VolumeSource& source : sources) {
-        if (double{source.wayMm} > farthest) continue;
-        close.push_back(&source);
-        places.push_back(source.position);
-    }
-    if (close.empty()) return;
-    std::vector<std::uint32_t> nearest(close.size());
-    NearestPoints(points).query(places, 1, nearest);
-    std::vector<DRgb> more(close.size(), DRgb(0));
-    parallelFor(close.size(), kReceiversPerSum, [&](std::size_t begin, std::size_t end) {
+void ShapeSolver::correctOwnCells(std::span<const VolumeSource> sources, const KernelTable& near,
+                                  std::span<DRgb> fluence) const {
+    std::vector<DRgb> more(sources.size(), DRgb(0));
+    parallelFor(sources.size(), kReceiversPerSum, [&](std::size_t begin, std::size_t end) {
         for (std::size_t s = begin; s < end; ++s) {
-            const SurfacePoint& point = cloud_.points[nearest[s]];
-            const Vec3 away = places[s] - point.position;
+            const VolumeSource& source = sources[s];
+            if (source.from == VolumeSource::kNowhere) continue;
+            const SurfacePoint& point = cloud_.points[source.from];
+            const Vec3 away = source.position - point.position;
             const float squared = glm::dot(away, away);
             const double radius = std::sqrt(double{point.areaMm2} / kPi);
             if (double{squared} > std::pow(kFarFromCell * radius, 2)) continue;
@@ -126,10 +114,11 @@ void ShapeSolver::correctNearestCells(std::span<const VolumeSource> sources,
                                  DRgb(near.evaluate(squared));
             for (int c = 0; c < 3; ++c)
                 if (medium_.scatters[c])
-                    more[s][c] = double{close[s]->power[c]} * missing[c] / medium_.diffusionMm[c];
+                    more[s][c] = double{source.power[c]} * missing[c] / medium_.diffusionMm[c];
         }
     });
-    for (std::size_t s = 0; s < close.size(); ++s) fluence[nearest[s]] += more[s];
+    for (std::size_t s = 0; s < sources.size(); ++s)
+        if (sources[s].from != VolumeSource::kNowhere) fluence[sources[s].from] += more[s];
 }
 
 ShapeReport ShapeSolver::solve(std::span<const VolumeSource> sources, std::span<DRgb> fluence,

@@ -56,8 +56,8 @@ private:
     void measureFill();
     std::vector<DRgb> direct(std::span<const VolumeSource> sources, double tolerance,
                              SumCounts& counts) const;
-    void correctNearestCells(std::span<const VolumeSource> sources, const KernelTable& near,
-                             std::span<const Vec3> points, std::span<DRgb> fluence) const;
+    void correctOwnCells(std::span<const VolumeSource> sources, const KernelTable& near,
+                         std::span<DRgb> fluence) const;
 
     CloudView cloud_;
     std::span<const OctreeNode> nodes_;

@@ -15,8 +15,9 @@ struct VolumeSource {
     /// Sources of a kind stand at like depths along their beams: their colours differ as the
     /// light's do, not with depth.
     std::uint32_t kind = 0;
-    /// Along its beam to the surface, the shorter way; 0 if nobody knows.
-    float wayMm = 0;
+    /// The point that its beam came from, straight; kNowhere if it was reflected on its way.
+    std::uint32_t from = kNowhere;
+    static constexpr std::uint32_t kNowhere = 0xffffffffu;
 };
 
 /// Sources of one kind as the sums over points take them: points of unit area. A node of the octree

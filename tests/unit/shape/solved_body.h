@@ -47,8 +47,7 @@ struct Solved {
             for (std::uint32_t k = 0; k < nodes.size(); ++k) {
                 const auto depth = static_cast<float>(nodes[k].depthMm);
                 sources.push_back({p.position - normal * depth,
-                                   Rgb(power * nodes[k].weight * medium.reducedAlbedo), k,
-                                   std::min(depth, static_cast<float>(length) - depth)});
+                                   Rgb(power * nodes[k].weight * medium.reducedAlbedo), k, i});
             }
         }
         const double reach = 1.01 * mesh.bounds().diagonal();
