@@ -56,30 +56,50 @@ GridStencil quadraticStencil(const Vec2& place, std::uint32_t n) {
     return stencil;
 }
 
-}  // namespace
-
-GridStencil gridStencil(const Vec2& place, std::uint32_t segments) {
+// The most frequent grids, of a single triangle each, without the search for it.
+GridStencil stencilOf(const Vec2& place, std::uint32_t segments) {
+    const float x = place.x, y = place.y, z = 1.0f - x - y;
+    if (segments == 1) return {{0, 1, 2}, {z, x, y}};
+    if (segments == 2)
+        return {
+            {0, 2, 5, 1, 4, 3},
+            {z * (2 * z - 1), x * (2 * x - 1), y * (2 * y - 1), 4 * z * x, 4 * x * y, 4 * y * z}};
     return segments % 2 == 0 ? quadraticStencil(place, segments) : linearStencil(place, segments);
 }
 
+// Sum over a stencil of what `valueAt` gives at its points.
+template <typename ValueAt>
+Rgb interpolate(const GridStencil& stencil, std::uint32_t segments, const ValueAt& valueAt) {
+    Rgb sum(0.0f);
+    for (std::size_t k = 0; k < 3; ++k) sum += valueAt(stencil.point[k]) * stencil.weight[k];
+    if (segments % 2 == 0)
+        for (std::size_t k = 3; k < 6; ++k) sum += valueAt(stencil.point[k]) * stencil.weight[k];
+    return sum;
+}
+
+}  // namespace
+
+GridStencil gridStencil(const Vec2& place, std::uint32_t segments) {
+    return stencilOf(place, segments);
+}
+
 Rgb ExitanceGroup::at(std::uint32_t patch, const Vec2& inPatch) const {
-    const GridStencil stencil = gridStencil(inPatch, segments[patch]);
+    const std::uint32_t n = segments[patch];
     const std::uint16_t* site = siteOf.data() + firstSite[patch];
-    Rgb value(0.0f);
-    for (std::size_t k = 0; k < stencil.point.size(); ++k)
-        value += values[site[stencil.point[k]]] * stencil.weight[k];
     // Parabolas may undershoot where the light ends.
-    return glm::max(value, Rgb(0.0f));
+    return glm::max(interpolate(stencilOf(inPatch, n), n,
+                                [&](std::uint32_t point) { return values[site[point]]; }),
+                    Rgb(0.0f));
 }
 
 Rgb ExitanceGroup::at(std::uint32_t patch, const Vec2& inPatch, const Vec3& towards) const {
     const Rgb value = at(patch, inPatch);
     if (slopes.empty()) return value;
-    const GridStencil stencil = gridStencil(inPatch, segments[patch]);
+    const std::uint32_t n = segments[patch];
     const std::uint16_t* site = siteOf.data() + firstSite[patch];
-    Rgb lean(0.0f);
-    for (std::size_t k = 0; k < stencil.point.size(); ++k)
-        lean += slopes[site[stencil.point[k]]].along(towards) * stencil.weight[k];
+    const Rgb lean = interpolate(stencilOf(inPatch, n), n, [&](std::uint32_t point) {
+        return slopes[site[point]].along(towards);
+    });
     return value + glm::clamp(lean, -kMostLean * value, kMostLean * value);
 }
 

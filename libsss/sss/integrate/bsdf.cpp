@@ -88,39 +88,17 @@ Rgb Bsdf::wideValue(const Vec3& wiLocal) const {
     return albedo_ * (entering * optics_->radiancePerExitance(woLocal_.z));
 }
 
-Rgb Bsdf::evaluate(const Vec3& wi) const {
+Bsdf::Value Bsdf::evaluate(const Vec3& wi) const {
     const Vec3 wiLocal = frame_.toLocal(wi);
-    if (wiLocal.z <= 0 || glm::dot(wi, geometricNormal_) <= 0) return Rgb(0);
-    switch (kind_) {
-        case Kind::Black:
-            return Rgb(0);
-        case Kind::Diffuse:
-        case Kind::DiffuseLimit:
-        case Kind::ScatteredOnce:
-            return wideValue(wiLocal) * wiLocal.z;
-        case Kind::Conductor:
-            return conductorReflection(ggx_, woLocal_, wiLocal, index_) * wiLocal.z;
-        case Kind::Coat:
-            return Rgb(dielectricReflection(ggx_, woLocal_, wiLocal, optics_->eta) * wiLocal.z);
-    }
-    return Rgb(0);
-}
-
-float Bsdf::pdf(const Vec3& wi) const {
-    const Vec3 wiLocal = frame_.toLocal(wi);
-    if (wiLocal.z <= 0) return 0;
-    switch (kind_) {
-        case Kind::Black:
-            return 0;
-        case Kind::Diffuse:
-        case Kind::DiffuseLimit:
-        case Kind::ScatteredOnce:
-            return wiLocal.z / kPiF;
-        case Kind::Conductor:
-        case Kind::Coat:
-            return ggx_.isSpecular() ? 0.0f : ggx_.reflectionPdf(woLocal_, wiLocal);
-    }
-    return 0;
+    if (kind_ == Kind::Black || wiLocal.z <= 0) return {};
+    const bool isOutside = glm::dot(wi, geometricNormal_) > 0;
+    if (isWide()) return {isOutside ? wideValue(wiLocal) * wiLocal.z : Rgb(0), wiLocal.z / kPiF};
+    const Ggx::Lobe lobe = ggx_.lobe(woLocal_, wiLocal);
+    if (!isOutside || lobe.value == 0) return {Rgb(0), lobe.pdf};
+    const Rgb fresnel = kind_ == Kind::Conductor
+                            ? conductorFresnel(lobe.cosine, index_)
+                            : Rgb(fresnelReflectance(lobe.cosine, optics_->eta));
+    return {fresnel * (lobe.value * wiLocal.z), lobe.pdf};
 }
 
 Bsdf::Sample Bsdf::sample(const Vec2& u) const {

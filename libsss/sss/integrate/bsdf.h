@@ -32,9 +32,11 @@ public:
         bool isDelta = false;
     };
     Sample sample(const Vec2& u) const;
-    /// f(wo, wi) x |cos|; 0 for a mirror.
-    Rgb evaluate(const Vec3& wi) const;
-    float pdf(const Vec3& wi) const;
+    struct Value {
+        Rgb value{0.0f};  ///< f(wo, wi) x |cos|; 0 for a mirror
+        float pdf = 0;    ///< of sample(), sr^-1
+    };
+    Value evaluate(const Vec3& wi) const;
     /// Whether light sampling can contribute.
     bool hasSmoothPart() const;
     bool isBlack() const { return kind_ == Kind::Black; }

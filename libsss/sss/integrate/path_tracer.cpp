@@ -48,10 +48,9 @@ Bsdf PathTracer::bsdfAt(const SurfaceHit& hit, const Vec3& wo) const {
 Rgb PathTracer::openLight(const Bsdf& bsdf, const Vec3& from, const DirectSample& direct,
                           ShadowRay& shadow) {
     if (!(direct.pdf > 0)) return Rgb(0);
-    const Rgb value = bsdf.evaluate(direct.direction);
+    const auto [value, pdf] = bsdf.evaluate(direct.direction);
     if (isZero(value)) return Rgb(0);
-    const float weight =
-        direct.isDelta ? 1.0f : powerHeuristic(direct.pdf, bsdf.pdf(direct.direction));
+    const float weight = direct.isDelta ? 1.0f : powerHeuristic(direct.pdf, pdf);
     shadow = {shadowRay(from, direct), direct.volume};
     return value * direct.radianceOverPdf * weight;
 }

@@ -57,7 +57,8 @@ constexpr float kBothWaysShare = 0.5f;
 // through a thin part gets too large a weight. The six ways to the same distance are combined by
 // the balance heuristic.
 Depth sampleDepth(const MediumCoefficients& medium, float both, Sampler& sampler) {
-    const float pick = 3.0f * sampler.next1D(), u = sampler.next1D();
+    const Vec2 numbers = sampler.next2D();
+    const float pick = 3.0f * numbers.x, u = numbers.y;
     const int channel = std::min(2, static_cast<int>(pick));
     const bool countsBoth = pick - static_cast<float>(channel) < kBothWaysShare;
     Depth depth;
@@ -126,12 +127,12 @@ public:
     // chooses its direction itself.
     std::optional<LightQuery> choose(const World& world) {
         Sampler& sampler = query_.sampler;
-        const float uTechnique = sampler.next1D(), uPick = sampler.next1D();
+        const Vec2 pick = sampler.next2D();  // technique, light
         const Vec2 u = sampler.next2D();
         uFaint_ = sampler.next1D();
-        isByLight_ = uTechnique < lightShare_;
-        if (isByLight_) return LightQuery{world.picker().pick(uPick), place_, u};
-        const bool outward = (uTechnique - lightShare_) / (1 - lightShare_) < kOutwardShare;
+        isByLight_ = pick.x < lightShare_;
+        if (isByLight_) return LightQuery{world.picker().pick(pick.y), place_, u};
+        const bool outward = (pick.x - lightShare_) / (1 - lightShare_) < kOutwardShare;
         direct_.direction = outward ? outward_.toWorld(cosineDirection(u))
                                     : sampleScattered(-out_, meanComponent(medium_.g), u);
         direct_.pdf = scatteringPdf(direct_.direction);

@@ -258,10 +258,9 @@ bool VolumePath::reflectOpaque(const SurfaceHit& hit) {
     const Vec2 uLight = sampler_.next2D(), uScatter = sampler_.next2D();
     if (bsdf.hasSmoothPart()) {
         const DirectSample direct = sampleDirect(world_, from, uPick, uLight);
-        const Rgb value = direct.pdf > 0 ? bsdf.evaluate(direct.direction) : Rgb(0);
+        const auto [value, pdf] = direct.pdf > 0 ? bsdf.evaluate(direct.direction) : Bsdf::Value{};
         if (!isZero(value)) {
-            const float weight =
-                direct.isDelta ? 1.0f : powerHeuristic(direct.pdf, bsdf.pdf(direct.direction));
+            const float weight = direct.isDelta ? 1.0f : powerHeuristic(direct.pdf, pdf);
             add(value * direct.radianceOverPdf * weight *
                 transmittedShare(world_, media_, {from, body_}, direct, counts_.rays));
         }

@@ -9,8 +9,6 @@ namespace {
 
 bool areAbove(const Vec3& wo, const Vec3& wi) { return wo.z > 0 && wi.z > 0; }
 
-Vec3 halfVector(const Vec3& wo, const Vec3& wi) { return glm::normalize(wo + wi); }
-
 /// Without its Fresnel factor; `h` receives the microfacet normal.
 ReflectionSample sampleLobe(const Ggx& ggx, const Vec3& wo, const Vec2& u, Vec3& h) {
     ReflectionSample sample;
@@ -20,9 +18,9 @@ ReflectionSample sampleLobe(const Ggx& ggx, const Vec3& wo, const Vec2& u, Vec3&
     h = ggx.sampleVisibleNormal(wo, u);
     sample.wi = glm::normalize(mirrored(wo, h));
     if (!(sample.wi.z > 0)) return sample;
-    sample.pdf = ggx.reflectionPdf(wo, sample.wi);
-    // BRDF cos / pdf = G2 / G1(wo) [Heitz 2018, eq. 19].
-    sample.weight = Rgb{ggx.maskingShadowing(wo, sample.wi) / ggx.masking(wo)};
+    const Ggx::Lobe lobe = ggx.lobe(wo, sample.wi);
+    sample.pdf = lobe.pdf;
+    sample.weight = Rgb{lobe.share};
     return sample;
 }
 
@@ -77,33 +75,19 @@ float Ggx::visibleNormalPdf(const Vec3& wo, const Vec3& h) const {
     return area > 0 ? std::max(0.0f, glm::dot(wo, h)) * normalDensity(h) / area : 0;
 }
 
-float Ggx::reflectionPdf(const Vec3& wo, const Vec3& wi) const {
-    if (isSpecular() || !areAbove(wo, wi)) return 0;
+Ggx::Lobe Ggx::lobe(const Vec3& wo, const Vec3& wi) const {
+    if (isSpecular() || !areAbove(wo, wi)) return {};
+    const Vec3 h = glm::normalize(wo + wi);
+    const float density = normalDensity(h), out = 1.0f + lambda(wo), both = out + lambda(wi);
     // The Jacobian 1 / (4 wo.h) cancels the cosine of the visible normals' density.
-    return 0.25f * masking(wo) * normalDensity(halfVector(wo, wi)) / wo.z;
-}
-
-float Ggx::reflection(const Vec3& wo, const Vec3& wi) const {
-    if (isSpecular() || !areAbove(wo, wi)) return 0;
-    return normalDensity(halfVector(wo, wi)) * maskingShadowing(wo, wi) / (4.0f * wo.z * wi.z);
+    return {density / (4.0f * wo.z * wi.z * both), 0.25f * density / (out * wo.z), out / both,
+            glm::dot(wi, h)};
 }
 
 Rgb conductorFresnel(float cosine, const ConductorIndex& index) {
     return {conductorReflectance(cosine, index.eta.x, index.k.x),
             conductorReflectance(cosine, index.eta.y, index.k.y),
             conductorReflectance(cosine, index.eta.z, index.k.z)};
-}
-
-Rgb conductorReflection(const Ggx& ggx, const Vec3& wo, const Vec3& wi,
-                        const ConductorIndex& index) {
-    const float lobe = ggx.reflection(wo, wi);
-    if (lobe == 0) return Rgb{0.0f};
-    return lobe * conductorFresnel(glm::dot(wi, halfVector(wo, wi)), index);
-}
-
-float dielectricReflection(const Ggx& ggx, const Vec3& wo, const Vec3& wi, float eta) {
-    const float lobe = ggx.reflection(wo, wi);
-    return lobe == 0 ? 0 : lobe * fresnelReflectance(glm::dot(wi, halfVector(wo, wi)), eta);
 }
 
 ReflectionSample sampleConductor(const Ggx& ggx, const Vec3& wo, const Vec2& u,

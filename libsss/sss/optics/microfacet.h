@@ -37,11 +37,19 @@ public:
     /// Its density in solid angle (sr^-1).
     float visibleNormalPdf(const Vec3& wo, const Vec3& h) const;
 
+    /// What is known of a pair of directions once their half vector is.
+    struct Lobe {
+        float value = 0;   ///< the reflection lobe with a Fresnel factor of 1: D G2 / (4 cos cos)
+        float pdf = 0;     ///< see reflectionPdf()
+        float share = 0;   ///< value x cos wi / pdf = G2 / G1(wo) [Heitz 2018, eq. 19]
+        float cosine = 0;  ///< of either direction to the half vector
+    };
+    /// All zero if specular.
+    Lobe lobe(const Vec3& wo, const Vec3& wi) const;
     /// Density (sr^-1) of `wi` when `wo` is reflected by a sampled visible normal. It integrates to
     /// less than 1 over the hemisphere: the rest goes below the surface, and is lost.
-    float reflectionPdf(const Vec3& wo, const Vec3& wi) const;
-    /// The reflection lobe with a Fresnel factor of 1: D G2 / (4 cos cos).
-    float reflection(const Vec3& wo, const Vec3& wi) const;
+    float reflectionPdf(const Vec3& wo, const Vec3& wi) const { return lobe(wo, wi).pdf; }
+    float reflection(const Vec3& wo, const Vec3& wi) const { return lobe(wo, wi).value; }
 
 private:
     float lambda(const Vec3& w) const;
@@ -57,14 +65,8 @@ struct ConductorIndex {
     Rgb k{3.9f, 2.45f, 2.14f};
 };
 
-/// Fresnel reflectance of a conductor, per channel.
+/// Fresnel reflectance of a conductor, per channel: what its lobe is multiplied by.
 Rgb conductorFresnel(float cosine, const ConductorIndex& index);
-
-/// Rough conductor; 0 if specular.
-Rgb conductorReflection(const Ggx& ggx, const Vec3& wo, const Vec3& wi,
-                        const ConductorIndex& index);
-/// Reflection off a rough dielectric seen from outside, eta = inside / outside; 0 if specular.
-float dielectricReflection(const Ggx& ggx, const Vec3& wo, const Vec3& wi, float eta);
 
 /// A reflected direction. A specular surface gives the mirror direction with pdf 1 and isDelta.
 struct ReflectionSample {

@@ -171,11 +171,14 @@ TEST(Microfacet, WeightIsValueTimesCosineOverDensity) {
             EXPECT_EQ(metal.pdf, glass.pdf);
             if (metal.pdf == 0) continue;
             EXPECT_EQ(metal.pdf, ggx.reflectionPdf(wo, metal.wi));
-            const Rgb value = conductorReflection(ggx, wo, metal.wi, gold);
+            const Ggx::Lobe lobe = ggx.lobe(wo, metal.wi);
+            EXPECT_NEAR(lobe.share, ggx.maskingShadowing(wo, metal.wi) / ggx.masking(wo),
+                        1e-6f * lobe.share);
+            const Rgb value = lobe.value * conductorFresnel(lobe.cosine, gold);
             for (int c = 0; c < 3; ++c)
                 EXPECT_NEAR(value[c] * metal.wi.z / metal.pdf, metal.weight[c],
                             1e-3f * metal.weight[c] + 1e-6f);
-            EXPECT_NEAR(dielectricReflection(ggx, wo, glass.wi, 1.5f) * glass.wi.z / glass.pdf,
+            EXPECT_NEAR(lobe.value * fresnelReflectance(lobe.cosine, 1.5f) * glass.wi.z / glass.pdf,
                         glass.weight.x, 1e-3f * glass.weight.x + 1e-6f);
         }
 }
