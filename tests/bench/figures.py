@@ -25,7 +25,8 @@ def all_tables(result):
     if result.get("peer", {}).get("scenes"):
         made.append(peer(result["peer"]))
     if "frame" in result:
-        made += [whole_scene(result["frame"]), exitance_error(result["frame"])]
+        made += [whole_scene(result["frame"]), exitance_cost(result["frame"]["exitance"]),
+                 exitance_error(result["frame"])]
     if "scaling" in result:
         made.append(scaling(result["scaling"]))
     if result.get("scenes"):
@@ -169,7 +170,7 @@ def whole_scene(frame):
     both = runs["preprocess"]["cpuMin"] + runs["render"]["cpuMin"]
     rows = [row(runs["preprocess"], False), row(runs["render"], False),
             ["**both passes**", f"**{both:.2f}** ({both / twin:.2f} x)", "", ""],
-            row(runs["moved"]), row(runs["all"]), row(runs["lambertian"], False),
+            row(runs["moved"]), row(runs["movedShape"]), row(runs["all"]), row(runs["lambertian"], False),
             *turntable_rows(frame["turntable"])]
     counts = frame["counts"]
     return Table("Whole scene", ["run", "CPU s, least (x Lambertian)", "median", "memory"], rows,
@@ -178,6 +179,32 @@ def whole_scene(frame):
                  f"{counts['interactionsPerReceiver']:,.0f} interactions each; "
                  f"{counts['lookups']:,} lookups at "
                  f"{1e9 * frame['accuracy']['lookupSeconds']:.0f} ns.", "frame")
+
+
+def exitance_cost(exitance):
+    """What the first frame of a light pays for exitance, by the profile and on the shape."""
+    places = ("everywhere", "seen")
+    profile, solution = exitance["profile"], exitance["solution"]
+
+    def cell(costs, factors):
+        """Of each place; `factors` where it is the whole price."""
+        cells = []
+        for key, form in (("interactions", lambda number: f"{number / 1e6:.1f} M"),
+                          ("seconds", lambda number: f"{number:.2f}")):
+            for place, cost in zip(places, costs):
+                times = f" ({cost[key] / profile[place][key]:.1f} x)" if factors else ""
+                cells.append(form(cost[key]) + times)
+        return cells
+    corrected = [exitance["corrected"][place] for place in places]
+    both = [{key: cost[key] + solution[key] for key in cost} for cost in corrected]
+    rows = [["by the dipole", *cell([profile[place] for place in places], False)],
+            ["on the shape", *cell(both, True)],
+            ["of it, solved once", *cell([solution] * 2, False)]]
+    return Table("Exitance of the whole scene", [
+        "exitance", "interactions, everywhere", "where the picture sees it", "CPU s, everywhere",
+        "where the picture sees it"], rows,
+        f"{exitance['points']:,} points, {exitance['sums']} sums of the layers; tolerance "
+        f"{100 * exitance['tolerance']:.2g} %.", "frame")
 
 
 def turntable_rows(turntable):

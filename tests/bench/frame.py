@@ -28,6 +28,7 @@ def measure(scale, options):
         "programs": programs_run,
         "turntable": run_turntables(scale, options.out),
         "accuracy": accuracy,
+        "exitance": programs.bench("exitance", scenes["bunny"], rounds=scale["runs"]),
         "reference": {key: reference[key] for key in
                       ("points", "spacingMm", "irradianceSamples", "seedsApart")},
         "counts": {
@@ -74,25 +75,32 @@ def make_scenes(scale, folder):
 
 def run_programs(scale, scenes, out):
     """Every program once a round, in turn, so that all see the same disturbances."""
-    cache, full_cache = out / "bunny.ssc", out / "all.ssc"
+    cache, full_cache, shape_cache = (out / f"{name}.ssc" for name in ("bunny", "all", "shape"))
+    on_shape = ["--model", "shape"]
     render = [BIN / "sss-render", "--quiet", "--no-png"]
     commands = {
         "preprocess": ("pass 1", [BIN / "sss-preprocess", scenes["bunny"], "-o", cache, "--quiet"]),
         "render": ("pass 2", [*render, scenes["bunny"], "--cache", cache, "-o", out / "bunny.exr"]),
         "moved": ("further frame, camera moved",
                   [*render, scenes["moved"], "--cache", cache, "-o", out / "moved.exr"]),
+        "movedShape": ("further frame, camera moved, diffusion on the shape",
+                       [*render, scenes["moved"], "--cache", shape_cache, *on_shape,
+                        "-o", out / "moved-shape.exr"]),
         "lambertian": ("Lambertian twin",
                        [*render, scenes["lambertian"], "-o", out / "lambertian.exr"]),
         "all": ("further frame, all effects",
                 [*render, scenes["all"], "--cache", full_cache, "-o", out / "all.exr"]),
     }
     programs.cost([BIN / "sss-preprocess", scenes["all"], "-o", full_cache, "--quiet"])
+    programs.cost([BIN / "sss-preprocess", scenes["bunny"], *on_shape, "-o", shape_cache, "--quiet"])
     runs = {name: [] for name in commands}
     stats = {}
     for _ in range(scale["runs"]):
         # The first frame of a cache finds no exitance kept, further ones that of the first.
-        for kept in (cache, full_cache):
+        for kept in (cache, full_cache, shape_cache):
             kept.with_name(kept.name + ".exitance").unlink(missing_ok=True)
+        programs.cost([*render, scenes["bunny"], "--cache", shape_cache, *on_shape,
+                       "-o", out / "first.exr"])
         programs.cost([*render, scenes["bunny"], "--cache", full_cache, "-o", out / "first.exr"])
         for name, (_, command) in commands.items():
             file = out / f"{name}.stats.json"

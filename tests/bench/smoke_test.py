@@ -65,7 +65,7 @@ class SmokeTest(unittest.TestCase):
     def test_whole_frame_has_cost_and_error(self):
         frame = self.result["frame"]
         self.assertEqual(set(frame["programs"]),
-                         {"preprocess", "render", "moved", "lambertian", "all"})
+                         {"preprocess", "render", "moved", "movedShape", "lambertian", "all"})
         for run in frame["programs"].values():
             self.assertGreater(run["cpuMin"], 0)
             self.assertGreater(run["memory"], 1 << 20)
@@ -75,7 +75,16 @@ class SmokeTest(unittest.TestCase):
         self.assertLess(accuracy["error"]["rmsOfMean"], 0.2)
         self.assertLess(accuracy["ofReference"]["rmsOfMean"], accuracy["error"]["rmsOfMean"])
         self.assertGreater(accuracy["lookupSeconds"], 0)
-        self.assertEqual(len(self.rows("frame.csv")), 5)
+        self.assertEqual(len(self.rows("frame.csv")), 6)
+        exitance = frame["exitance"]
+        for place in ("seen", "everywhere"):
+            costs = [exitance["profile"][place], exitance["corrected"][place]]
+            for cost in (*costs, exitance["solution"]):
+                self.assertGreater(cost["seconds"], 0)
+            # The same sites but for where the correction smooths.
+            self.assertAlmostEqual(costs[0]["interactions"] / costs[1]["interactions"], 1, delta=0.3)
+        self.assertGreater(exitance["solution"]["interactions"],
+                           exitance["profile"]["everywhere"]["interactions"])
         turntable = frame["turntable"]
         for seconds in turntable["cpuSeconds"].values():
             self.assertEqual(len(seconds), 2)

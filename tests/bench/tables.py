@@ -124,6 +124,9 @@ def frame_summary(frame):
         f"({both / runs['lambertian']['cpuMin']:.2f} x Lambertian); further frame "
         f"{runs['moved']['cpuMin'] / runs['lambertian']['cpuMin']:.2f} x, with all effects "
         f"{runs['all']['cpuMin'] / runs['lambertian']['cpuMin']:.2f} x",
+        "exitance on the shape, of the dipole's: "
+        f"{exitance_ratio(frame['exitance'], 'seconds'):.1f} x CPU s, "
+        f"{exitance_ratio(frame['exitance'], 'interactions'):.1f} x interactions",
         "turntable, frames after the first "
         f"{frame['turntable']['later']['marble']:.2f} CPU s "
         f"({frame['turntable']['ratio']:.2f} x Lambertian)",
@@ -139,6 +142,12 @@ def frame_summary(frame):
         f"lookup of computed exitance {1e9 * accuracy['lookupSeconds']:.0f} ns",
     ]
     return lines
+
+
+def exitance_ratio(exitance, key):
+    """Everywhere on the body, with what solving takes."""
+    return ((exitance["solution"][key] + exitance["corrected"]["everywhere"][key])
+            / exitance["profile"]["everywhere"][key])
 
 
 def scaling_summary(scaling, about):

@@ -13,6 +13,7 @@ JsonValue describe(const ShapeExitance& shape) {
     JsonValue solved = JsonValue::object();
     solved.set("sums", shape.report.layers.sums)
         .set("iterations", shape.report.solve.iterations)
+        .set("startResidual", list(shape.report.solve.start))
         .set("residual", list(shape.report.solve.residual))
         .set("negative", list(shape.report.negative))
         .set("gain", shape.gain)

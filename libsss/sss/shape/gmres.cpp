@@ -60,7 +60,7 @@ GmresReport gmres(const MatrixProduct& apply, std::span<const DRgb> right, std::
 
     std::vector<std::vector<DRgb>> columns;  // of the triangular factor
     std::vector<Rotation> rotations;
-    report.residual = quotient(glm::abs(rest[0]), size);
+    report.residual = report.start = quotient(glm::abs(rest[0]), size);
     while (worst(report.residual) > tolerance && report.iterations < mostIterations) {
         const std::size_t k = columns.size();
         std::vector<DRgb> next(n), column;

@@ -11,6 +11,7 @@ namespace sss {
 /// by channel.
 struct GmresReport {
     int iterations = 0;  ///< products with the operator
+    DRgb start{0};       ///< the guess's residual
     DRgb residual{0};    ///< |right - K x| / |right|, by the recurrence
     bool converged = false;
 };

@@ -43,6 +43,7 @@ TEST(Gmres, SolvesAllChannels) {
     std::vector<DRgb> x(kSize, DRgb(0));
     const GmresReport report = system.solve(x, 1e-12);
     EXPECT_TRUE(report.converged);
+    EXPECT_NEAR(report.start.x, 1, 1e-12);  // of a guess of 0
     EXPECT_LE(report.iterations, static_cast<int>(kSize) + 2);
     for (std::size_t i = 0; i < kSize; ++i)
         EXPECT_LT(glm::length(x[i] - system.solution[i]), 1e-10);
@@ -51,7 +52,9 @@ TEST(Gmres, SolvesAllChannels) {
 TEST(Gmres, AGoodGuessNeedsOneProduct) {
     const System system;
     std::vector<DRgb> x = system.solution;
-    EXPECT_EQ(system.solve(x, 1e-9).iterations, 1);
+    const GmresReport report = system.solve(x, 1e-9);
+    EXPECT_EQ(report.iterations, 1);
+    EXPECT_LT(report.start.x, 1e-9);
 }
 
 TEST(Gmres, SaysWhatItLeft) {
