@@ -185,8 +185,10 @@ def scaling(measured):
     figure, (left, right) = panels(2, height=3.4)
     sizes = [size["points"] for size in measured["sizes"]]
     entries = [size["methods"][0]["curve"][0] for size in measured["sizes"]]
-    # Through the first size: what growth as log N would be.
-    logarithm = [math.log(n) / math.log(sizes[0]) for n in sizes]
+    # Through the size nearest 10^5, from where on the profile is resolved: growth as log N, which
+    # is a straight line here.
+    through = min(range(len(sizes)), key=lambda i: abs(math.log(sizes[i] / 1e5)))
+    logarithm = [math.log(n) / math.log(sizes[through]) for n in sizes]
     ends = []
     series = (
         (left, "interactions", [e["counts"]["interactions"] for e in entries],
@@ -194,19 +196,19 @@ def scaling(measured):
         (right, "time", [1e6 * e["seconds"] for e in entries], "µs a receiver"),
     )
     for axis, name, values, unit in series:
-        axis.set(xscale="log", yscale="log", xlabel="points", ylabel=unit,
+        axis.set(xscale="log", xlabel="points", ylabel=unit,
                  title=f"{name}: {measured['scene']}, tolerance 1 %")
         axis.plot(sizes, values, color=COLOURS["ours"], marker="o", markersize=4, linewidth=1.6)
-        axis.plot(sizes, [values[0] * k for k in logarithm], color="#555555", linewidth=1,
+        axis.plot(sizes, [values[through] * k for k in logarithm], color="#555555", linewidth=1,
                   linestyle=(0, (4, 3)))
-        ends.append([(sizes[-1], values[0] * logarithm[-1], "as log N", "#555555"),
+        ends.append([(sizes[-1], values[through] * logarithm[-1], "as log N", "#555555"),
                      (sizes[-1], values[-1], "measured", COLOURS["ours"])])
         if axis is left:
             nodes = [e["counts"]["nodes"] for e in entries]
             axis.plot(sizes, nodes, color="#7fb8d8", marker="o", markersize=3, linewidth=1.2)
             ends[-1].append((sizes[-1], nodes[-1], "nodes alone", "#4a90b8"))
+        axis.set_ylim(bottom=0)
         log_axis(axis.xaxis)
-        log_axis(axis.yaxis)
     for axis, names in zip((left, right), ends):
         label_ends(axis, names)
     return figure
