@@ -109,19 +109,22 @@ constexpr float kFaint = 0.01f / (4 * kPiF);
 // weighted by the power heuristic for one sample.
 class InScattering {
 public:
-    // `lightShare` of the samples are by light sampling; `out` is the propagation direction in
-    // which it is seen, `leaving` by how much.
+    // `lightShare` of the samples are by light sampling; `inward` leads to the place from where it
+    // is seen, `leaving` by how much.
     InScattering(SingleQuery& query, const MediumCoefficients& medium, float lightShare,
-                 const Vec3& place, const Vec3& out, const Rgb& leaving)
+                 const Vec3& place, const Ray& inward, const Rgb& leaving)
         : query_(query),
           medium_(medium),
           outward_(query.hit->geometricNormal),
           lightShare_(lightShare),
           place_(place),
-          out_(out),
+          out_(-inward.direction),
+          inward_(inward),
           leaving_(leaving) {}
 
     const SingleQuery& query() const { return query_; }
+    // A ray that leaves the body before it scatters brings nothing.
+    const Ray& inward() const { return inward_; }
 
     // Chooses a technique: a light to be sampled from the place, or none for the other one, which
     // chooses its direction itself.
@@ -195,15 +198,16 @@ private:
     MediumCoefficients medium_;
     Frame outward_;
     float lightShare_;
-    Vec3 place_, out_;
+    Vec3 place_, out_;  // out: the propagation direction in which it is seen
+    Ray inward_;
     Rgb leaving_;
     DirectSample direct_;  // of the other technique, direction and density only
     float uFaint_ = 0;
     bool isByLight_ = false;
 };
 
-// Where light might scatter towards where a place is seen from, should the ray `inward` get there.
-std::optional<InScattering> scatteringPlace(const World& world, SingleQuery& query, Ray& inward) {
+// Where light might scatter towards where a place is seen from.
+std::optional<InScattering> scatteringPlace(const World& world, SingleQuery& query) {
     const MediumCoefficients medium(query.optics->material.medium);
     const float eta = query.optics->eta, cosOut = glm::dot(query.normal, query.wo);
     const float cosOutInside = refractedCosine(cosOut, eta);
@@ -214,6 +218,7 @@ std::optional<InScattering> scatteringPlace(const World& world, SingleQuery& que
     const Depth depth =
         sampleDepth(medium, isLit ? bothWays(cosOutInside, eta) : 1.0f, query.sampler);
     if (isZero(depth.weight)) return std::nullopt;
+    Ray inward;
     inward.origin = world.leave(*query.hit, -query.hit->geometricNormal);
     inward.direction =
         glm::normalize(refractedDirection(-query.wo, query.normal, cosOut, cosOutInside, eta));
@@ -221,7 +226,7 @@ std::optional<InScattering> scatteringPlace(const World& world, SingleQuery& que
     // From the surface itself: the step off it would count as distance in the medium.
     const Vec3 place = query.hit->position + inward.direction * depth.distance;
     const float leaving = (1.0f - fresnelReflectance(cosOut, eta)) / (eta * eta);
-    return InScattering(query, medium, lightShare(world, isLit), place, -inward.direction,
+    return InScattering(query, medium, lightShare(world, isLit), place, inward,
                         depth.weight * leaving);
 }
 
@@ -245,29 +250,16 @@ void singleScattering(const World& world, std::span<SingleQuery> queries,
     SSS_ASSERT_LE(queries.size(), kMostSingle);
     counts.samples += queries.size();
     SingleList<InScattering> insides;
-    SingleList<Ray> rays;
-    SingleList<std::uint32_t> masks;
-    for (SingleQuery& query : queries) {
-        Ray inward;
-        const auto inside = scatteringPlace(world, query, inward);
-        if (!inside) continue;
-        insides.emplace_back(*inside);
-        rays.emplace_back(inward);
-        masks.emplace_back(bodyMask(query.hit->body));
-    }
-    // A ray that leaves the body before it scatters brings nothing.
-    std::array<bool, kMostSingle> blocked;
-    world.rays().occludedTogether(rays.span(), RayScene::Together::Parted, blocked, masks.span());
-    counts.rays += rays.size();
+    for (SingleQuery& query : queries)
+        if (const auto inside = scatteringPlace(world, query)) insides.emplace_back(*inside);
 
     SingleList<LightQuery> lights;
     SingleList<InScattering*> asking;  // by light
-    for (std::size_t i = 0; i < insides.size(); ++i) {
-        if (blocked[i]) continue;
-        const auto light = insides[i].choose(world);
+    for (InScattering& inside : insides.span()) {
+        const auto light = inside.choose(world);
         if (!light) continue;
         lights.emplace_back(*light);
-        asking.emplace_back(&insides[i]);
+        asking.emplace_back(&inside);
     }
     std::array<DirectSample, kMostSingle> samples;
     sampleDirect(world, lights.span(), samples);
@@ -275,42 +267,55 @@ void singleScattering(const World& world, std::span<SingleQuery> queries,
 
     SingleList<const InScattering*> aimed;  // by line
     SingleList<Ray> lines;
-    SingleList<std::uint32_t> lineMasks;
+    SingleList<std::uint32_t> masks;
     SingleList<Hit> hits;
-    for (std::size_t i = 0; i < insides.size(); ++i) {
+    for (const InScattering& inside : insides.span()) {
         Ray line;
-        if (blocked[i] || !insides[i].aim(line)) continue;
-        aimed.emplace_back(&insides[i]);
+        if (!inside.aim(line)) continue;
+        aimed.emplace_back(&inside);
         lines.emplace_back(line);
-        lineMasks.emplace_back(masks[i]);
+        masks.emplace_back(bodyMask(inside.query().hit->body));
         hits.emplace_back();
     }
     world.rays().intersectTogether(lines.span(), RayScene::Together::Parted, hits.span(),
-                                   lineMasks.span());
+                                   masks.span());
     counts.rays += lines.size();
 
-    SingleList<Ray> shadows;
-    SingleList<SingleFound*> lit;  // by shadow ray
+    // What is found, if the body reaches as far as the place and nothing stands on the way to the
+    // light: asked last, both at once, when there is little left to ask for.
+    struct Promise {
+        SingleFound* found;
+        std::size_t inward, shadow;  // rays; the same if there is no shadow ray
+    };
+    SingleList<Promise> promises;
+    InlineVector<Ray, 2 * kMostSingle> ways;
+    InlineVector<std::uint32_t, 2 * kMostSingle> wayMasks;
     for (std::size_t i = 0; i < aimed.size(); ++i) {
         if (hits[i].geometry == kNoGeometry) continue;
-        const SingleQuery& query = aimed[i]->query();
-        const auto exit = exitAt(world, query, lines[i].direction, hits[i]);
+        const InScattering& inside = *aimed[i];
+        const auto exit = exitAt(world, inside.query(), lines[i].direction, hits[i]);
         if (!exit) continue;
-        SingleFound& here = found[static_cast<std::size_t>(&query - queries.data())];
+        SingleFound& here = found[static_cast<std::size_t>(&inside.query() - queries.data())];
         Ray shadow;
-        here.radiance = aimed[i]->gather(*exit, shadow, here);
-        if (isZero(here.radiance)) continue;
-        if (world.hasVolumes()) {
-            here.radiance *= arrivingShare(world, shadow, aimed[i]->volume(), counts.rays);
-            continue;
+        here.radiance = inside.gather(*exit, shadow, here);
+        if (isZero(here.radiance) && isZero(here.weight)) continue;
+        const std::size_t inward = ways.size();
+        ways.emplace_back(inside.inward());
+        wayMasks.emplace_back(masks[i]);
+        if (!isZero(here.radiance) && world.hasVolumes())
+            here.radiance *= arrivingShare(world, shadow, inside.volume(), counts.rays);
+        else if (!isZero(here.radiance)) {
+            ways.emplace_back(shadow);
+            wayMasks.emplace_back(kAllGeometry);
         }
-        shadows.emplace_back(shadow);
-        lit.emplace_back(&here);
+        promises.emplace_back(Promise{&here, inward, ways.size() - 1});
     }
-    world.rays().occludedTogether(shadows.span(), RayScene::Together::Parted, blocked);
-    counts.rays += shadows.size();
-    for (std::size_t k = 0; k < lit.size(); ++k)
-        if (blocked[k]) lit[k]->radiance = Rgb(0);
+    std::array<bool, 2 * kMostSingle> blocked;
+    world.rays().occludedTogether(ways.span(), RayScene::Together::Parted, blocked,
+                                  wayMasks.span());
+    counts.rays += ways.size();
+    for (const Promise& promise : promises.span())
+        if (blocked[promise.inward] || blocked[promise.shadow]) *promise.found = {};
 }
 
 Rgb singleScattering(const World& world, const BodyOptics& optics, const SurfaceHit& hit,
