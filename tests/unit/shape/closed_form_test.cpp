@@ -148,6 +148,46 @@ double slabShare(const DiffusionConstants& m, int c, double thickness, double z)
     return ((1 - bk) / far * std::exp(k * z) - (1 + bk) * far * std::exp(-k * z)) / determinant;
 }
 
+// A slab lit from above, wide, since light wanders far: its middle, solved and by the closed form.
+struct LitSlab {
+    DRgb back, through, backExact{0}, throughExact{0};
+
+    LitSlab(const DiffusionConstants& medium, double thickness, double spacing) {
+        const double width = 4.5 * (thickness + 4 / medium.extinction.y);
+        const Solved slab(makeBox(DVec3(width, width, thickness)), spacing, thickness, medium,
+                          fromAbove);
+        const auto middle = [&](float side) {
+            return slab.mean([&](const SurfacePoint& p) {
+                return std::abs(p.position.x) < width / 12 && std::abs(p.position.y) < width / 12 &&
+                       p.position.z * side > 0;
+            });
+        };
+        back = middle(1);
+        through = middle(-1);
+        for (int c = 0; c < 3; ++c) {
+            const auto share = [&](double z) { return slabShare(medium, c, thickness, z); };
+            backExact[c] = fromDepths(medium, c, thickness, share);
+            throughExact[c] =
+                fromDepths(medium, c, thickness, [&](double z) { return share(thickness - z); });
+        }
+    }
+};
+
+// Thin parts ask for no denser points than pass 1 makes at the most, 1.5 of the shortest mean free
+// path apart.
+TEST(ThinSlab, IsRightByPointsFartherApartThanItsFaces) {
+    const DiffusionConstants medium = constantsOf("marble");
+    const double l = 1 / medium.extinction.z;
+    for (const auto& [perMfp, error] :
+         {std::pair{0.5, 0.08}, std::pair{1.0, 0.04}, std::pair{2.0, 0.03}}) {
+        const LitSlab slab(medium, perMfp * l, 1.5 * l);
+        for (int c = 0; c < 3; ++c) {
+            EXPECT_NEAR(slab.back[c] / slab.backExact[c], 1, error) << perMfp << ' ' << c;
+            EXPECT_NEAR(slab.through[c] / slab.throughExact[c], 1, error) << perMfp << ' ' << c;
+        }
+    }
+}
+
 // Radiative transfer, green channel: a beam along the normal, already inside; shares of it by an
 // independent Monte Carlo of 2 million photons, standard error 0.0004. `passed` has in it what
 // passes `straight`, without scattering.
@@ -162,34 +202,18 @@ TEST_P(Slab, MatchesTheClosedFormAndRadiativeTransfer) {
     const KnownSlab& known = GetParam();
     const DiffusionConstants medium = constantsOf(known.medium);
     const double l = 1 / medium.extinction.y, thickness = known.perMfp * l;
-    // Wide, since light wanders far: the middle is looked at.
-    const double width = 4.5 * (thickness + 4 * l);
-    // Faces four points apart, or their own samples show; of a thick one, points as far apart as
-    // the shortest mean free path.
-    const double spacing = std::min(thickness / 4, 1 / medium.extinction.z);
-    const Solved slab(makeBox(DVec3(width, width, thickness)), spacing, thickness, medium,
-                      fromAbove);
-    const auto middle = [&](float side) {
-        return [&, side](const SurfacePoint& p) {
-            return std::abs(p.position.x) < width / 12 && std::abs(p.position.y) < width / 12 &&
-                   p.position.z * side > 0;
-        };
-    };
-    const DRgb back = slab.mean(middle(1)), through = slab.mean(middle(-1));
+    // Faces four points apart; of a thick one, points as far apart as the shortest mean free path.
+    const LitSlab slab(medium, thickness, std::min(thickness / 4, 1 / medium.extinction.z));
     for (int c = 0; c < 3; ++c) {
-        const auto share = [&](double z) { return slabShare(medium, c, thickness, z); };
-        const double reflected = fromDepths(medium, c, thickness, share);
-        const double passed =
-            fromDepths(medium, c, thickness, [&](double z) { return share(thickness - z); });
-        EXPECT_NEAR(back[c] / reflected, 1, 0.01) << "channel " << c;
-        EXPECT_NEAR(through[c] / passed, 1, 0.01) << "channel " << c;
+        EXPECT_NEAR(slab.back[c] / slab.backExact[c], 1, 0.01) << "channel " << c;
+        EXPECT_NEAR(slab.through[c] / slab.throughExact[c], 1, 0.01) << "channel " << c;
     }
     // What the far face reflects of the beam (4 % of it and less) scatters as well, and lies on the
     // other side by as much.
     const double mirror = fresnelReflectance(1.0, Optics(known.medium).medium.eta);
     const double mirrored = known.straight * mirror / (1 - mirror);
-    EXPECT_NEAR((back.y + mirrored * through.y) / known.reflected, 1, 0.03);
-    EXPECT_NEAR((through.y + mirrored * back.y + known.straight) / known.passed, 1, 0.03);
+    EXPECT_NEAR((slab.back.y + mirrored * slab.through.y) / known.reflected, 1, 0.03);
+    EXPECT_NEAR((slab.through.y + mirrored * slab.back.y + known.straight) / known.passed, 1, 0.03);
 }
 
 INSTANTIATE_TEST_SUITE_P(Shape, Slab,
