@@ -1,5 +1,6 @@
 #include "sss/integrate/path_tracer.h"
 
+#include "sss/image/filter.h"
 #include "sss/integrate/arriving_light.h"
 #include "sss/integrate/look_through.h"
 #include "sss/integrate/single_scatter.h"
@@ -37,7 +38,20 @@ PathTracer::PathTracer(const World& world, std::span<const std::unique_ptr<BodyO
     : world_(world),
       optics_(optics),
       exitance_(exitance),
-      shading_(exitance ? Bsdf::BodyShading::Surface : local) {}
+      shading_(exitance ? Bsdf::BodyShading::Surface : local),
+      lampsMayShow_(lampsMayShow()) {}
+
+bool PathTracer::lampsMayShow() const {
+    const FilmSettings& film = world_.scene().film;
+    const Vec2 reach(
+        static_cast<float>(PixelFilter(film.filter, film.filterRadiusPixels).radiusPixels()));
+    return std::ranges::any_of(world_.visibleLights(), [&](const World::VisibleLight& visible) {
+        if (visible.isInfinite) return false;
+        const Camera::Window window = world_.camera().windowOf(visible.light->visibleBounds());
+        return glm::all(glm::lessThanEqual(window.lo, Vec2(film.width, film.height) + reach)) &&
+               glm::all(glm::greaterThanEqual(window.hi, -reach));
+    });
+}
 
 Bsdf PathTracer::bsdfAt(const SurfaceHit& hit, const Vec3& wo) const {
     const BodyOptics* optics =
@@ -90,7 +104,8 @@ void PathTracer::putInFront(const Ray& ray, float distance, Sampler& sampler, Fi
         seen.surface = seen.surface * passage.transmittance + passage.radiance;
         seen.alpha = std::max(seen.alpha, 1 - meanComponent(passage.transmittance));
     }
-    seen.surface += radianceOfLights(world_, ray, distance, {});
+    if (lampsMayShow_ || !std::isfinite(distance))
+        seen.surface += radianceOfLights(world_, ray, distance, {});
 }
 
 Rgb PathTracer::diffusion(const SurfaceHit& hit, const Bsdf& bsdf, const Vec3& wo, Sampler& sampler,

@@ -115,6 +115,8 @@ private:
     void seeLamps(std::span<Onward> onwards, PathCounts& counts) const;
     /// What a view sees by reflection at its first surface.
     Rgb& reflectedBy(const FirstSurface& surface, Views& views) const;
+    /// Whether a camera ray may meet a lamp before a surface.
+    bool lampsMayShow() const;
     /// Puts volumes and lights between the camera and what is seen, which is `distance` away.
     void putInFront(const Ray& ray, float distance, Sampler& sampler, FilmSample& seen,
                     PathCounts& counts) const;
@@ -129,6 +131,7 @@ private:
     std::span<const std::unique_ptr<BodyOptics>> optics_;
     const ExitanceSource* exitance_;
     Bsdf::BodyShading shading_;
+    bool lampsMayShow_;
 };
 
 }  // namespace sss

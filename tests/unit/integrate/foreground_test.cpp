@@ -1,6 +1,7 @@
 #include "sss/integrate/foreground.h"
 
 #include "sss/integrate/light_sampling.h"
+#include "unit/integrate/pass_maker.h"
 #include "unit/integrate/scene_maker.h"
 
 #include <gtest/gtest.h>
@@ -77,6 +78,34 @@ TEST(Foreground, IsEverywhereThroughALens) {
     maker.scene.camera.apertureRadiusMm = 2;
     const World world = maker.world();
     EXPECT_TRUE(Foreground(world, 0.5f).mayShow(0, 63));
+}
+
+// A lamp in front of a black wall, half of it beyond the left edge of the picture, and then all of
+// it: a lamp a pixel out of sight still reaches pixels whose filter is wider than that.
+TEST(Foreground, LampsShowBeforeSurfacesAtTheEdgeOfThePicture) {
+    SceneMaker maker;
+    LambertianMaterial black;
+    black.reflectance = Rgb(0);
+    maker.object(BoxShape{{200, 200, 1}}, maker.material(black));
+    maker.scene.camera.position = {0, 0, 100};
+    maker.scene.film.width = maker.scene.film.height = 32;
+    maker.scene.film.samples = 64;
+    maker.scene.film.filter = FilterKind::Box;
+    const Camera camera = maker.world().camera();
+    // Where the edge is, half way to the wall.
+    const double edge = camera.ray(Vec2(0, 16), Vec2(0.5f)).direction.x /
+                        -camera.ray(Vec2(0, 16), Vec2(0.5f)).direction.z * 50;
+    const double pixel = -edge / 16;
+    const auto brightestAtLeft = [&](double right, double radius) {
+        SceneMaker lit = maker;
+        lit.light(RectangleLight{
+            {right - 1, 0, 50}, {right - 1, 0, 60}, {0, 1, 0}, 2, 60, Rgb(5), false});
+        lit.scene.film.filterRadiusPixels = radius;
+        return testing::value(testing::picture(lit.scene), "", 0, 16, 1);
+    };
+    EXPECT_NEAR(brightestAtLeft(edge + pixel, 0.5), 5, 1e-3);
+    EXPECT_EQ(brightestAtLeft(edge - 0.1 * pixel, 0.5), 0);
+    EXPECT_GT(brightestAtLeft(edge - pixel, 2.0), 0);
 }
 
 }  // namespace
