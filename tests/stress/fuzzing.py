@@ -33,7 +33,7 @@ def fuzz(target, bin_folder, out, seconds):
     kept, found = out / "corpus" / target, out / "found" / target
     kept.mkdir(parents=True, exist_ok=True)
     found.mkdir(parents=True, exist_ok=True)
-    command = ["nice", "-n", "19", str(bin_folder / f"sss-fuzz-{target}"),
+    command = [str(bin_folder / f"sss-fuzz-{target}"),
                f"-max_total_time={seconds}", f"-timeout={HANGS_AFTER_SECONDS}", "-rss_limit_mb=2048",
                "-malloc_limit_mb=600", f"-max_len={LONGEST.get(target, 4096)}",
                "-print_final_stats=1", f"-artifact_prefix={found}/", "-print_funcs=0"]
@@ -77,7 +77,7 @@ def all_rows(bin_folder, out, least=EXECUTIONS):
     began = time.monotonic()
     while tally.total() < least and time.monotonic() - began < MOST_SECONDS:
         before = tally.total()
-        for target in TARGETS:
+        for target in sorted(TARGETS, key=tally.executions.get):
             tally.add(target, fuzz(target, bin_folder, out, tally.turn_seconds(target)))
         print(f"fuzzing: {tally.total():,} executions of {least:,}", flush=True)
         if tally.total() == before:
