@@ -20,6 +20,8 @@ MESHES = ("obj", "ply", "off", "stl")
 # A cache is as large as its points; everything else may be wrong in little.
 LONGEST = {"cache": 32768, "exitance": 32768}
 EXECUTIONS = 10 ** 7
+# What only the report of a finding needs, which can be run once more, is left out.
+QUICK = "symbolize=0:malloc_context_size=0:max_malloc_fill_size=0"
 # A turn of one reader; what it has found interesting is where its next turn starts. One that is slow,
 # with less than half of an equal share so far, has longer ones.
 SECONDS_A_TURN, SECONDS_IF_BEHIND = 90, 270
@@ -39,8 +41,7 @@ def fuzz(target, bin_folder, out, seconds):
                "-print_final_stats=1", f"-artifact_prefix={found}/", "-print_funcs=0"]
     if target == "scene" or target in MESHES:
         command.append(f"-dict={HERE / 'fuzz' / ('scene' if target == 'scene' else 'mesh')}.dict")
-    # Names of functions take longer to find than thousands of executions; a finding can be run once more.
-    environment = {**os.environ, "ASAN_OPTIONS": "symbolize=0", "UBSAN_OPTIONS": "symbolize=0"}
+    environment = {**os.environ, "ASAN_OPTIONS": QUICK, "UBSAN_OPTIONS": "symbolize=0"}
     done = subprocess.run(command + [str(kept), str(HERE / "corpus" / target)], env=environment,
                           stdin=subprocess.DEVNULL, capture_output=True, check=False)
     words = done.stderr.decode(errors="replace")

@@ -132,7 +132,7 @@ void AtomicFile::commit() {
     if (fsync(descriptor_) != 0) fail(target_, "flush", errno);
     // Held until it has its name: a network's file system says at the first close what went wrong.
     const int held = std::exchange(descriptor_, fcntl(descriptor_, F_DUPFD_CLOEXEC, 0));
-    if (close(held) != 0) fail(target_, "close", errno);
+    if (close(held) != 0) fail(target_, "flush", errno);
     if (rename(temporary_.c_str(), target_.c_str()) != 0) fail(target_, "rename into place", errno);
     if (descriptor_ >= 0) close(std::exchange(descriptor_, -1));
     forgetTemporary();

@@ -6,6 +6,7 @@
 #include "support/temporary_folder.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <atomic>
@@ -164,6 +165,31 @@ TEST(AtomicFile, AFullDiskLeavesTheOldFile) {
         message = error.what();
     }
     EXPECT_NE(message.find("File too large"), std::string::npos) << message;
+    EXPECT_EQ(readFile(folder / "out"), "old");
+    EXPECT_EQ(folder.fileCount(), 1u);
+}
+
+// A disk that fails says so when it is flushed; a pipe, put in the descriptor's place, cannot be.
+TEST(AtomicFile, WhatCannotBeFlushedLeavesTheOldFile) {
+    const TemporaryFolder folder;
+    writeFile(folder / "out", "old");
+    int pipe[2];
+    ASSERT_EQ(::pipe(pipe), 0);
+    std::string message;
+    try {
+        AtomicFile file(folder / "out");
+        file.append("new");
+        for (const auto& entry : std::filesystem::directory_iterator("/proc/self/fd")) {
+            std::error_code ignored;
+            if (std::filesystem::read_symlink(entry.path(), ignored) == file.temporaryPath())
+                dup2(pipe[1], std::stoi(entry.path().filename().string()));
+        }
+        file.commit();
+    } catch (const Error& error) {
+        message = error.what();
+    }
+    for (const int end : pipe) close(end);
+    EXPECT_NE(message.find("out: cannot flush: Invalid argument"), std::string::npos) << message;
     EXPECT_EQ(readFile(folder / "out"), "old");
     EXPECT_EQ(folder.fileCount(), 1u);
 }

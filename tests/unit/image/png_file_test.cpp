@@ -42,6 +42,15 @@ TEST_F(PngFile, FailureLeavesNothing) {
     Picture8 wrong = noise(3);
     wrong.values.pop_back();
     EXPECT_THROW(writePng(folder_ / "a.png", wrong), Error);
+    // Wider than libpng writes, which says so itself.
+    constexpr int kTooWide = 1000001;
+    try {
+        writePng(folder_ / "a.png", {kTooWide, 1, 3, std::vector<std::uint8_t>(3 * kTooWide)});
+        FAIL() << "written";
+    } catch (const Error& error) {
+        EXPECT_NE(std::string(error.what()).find("a.png: cannot encode: "), std::string::npos)
+            << error.what();
+    }
     EXPECT_EQ(folder_.fileCount(), 0u);
 }
 
