@@ -24,7 +24,7 @@ EXECUTIONS = 10 ** 7
 QUICK = "symbolize=0:malloc_context_size=0:max_malloc_fill_size=0"
 # A turn of one reader; what it has found interesting is where its next turn starts. One that is slow,
 # with less than half of an equal share so far, has longer ones.
-SECONDS_A_TURN, SECONDS_IF_BEHIND = 90, 270
+SECONDS_A_TURN, SECONDS_IF_BEHIND = 60, 120
 # By the wall: at the lowest priority on a busy machine a second may take a minute.
 HANGS_AFTER_SECONDS = 120
 MOST_SECONDS = 3 * 3600
@@ -36,7 +36,8 @@ def fuzz(target, bin_folder, out, seconds):
     kept.mkdir(parents=True, exist_ok=True)
     found.mkdir(parents=True, exist_ok=True)
     command = [str(bin_folder / f"sss-fuzz-{target}"),
-               f"-max_total_time={seconds}", f"-timeout={HANGS_AFTER_SECONDS}", "-rss_limit_mb=2048",
+               f"-max_total_time={seconds}", f"-timeout={HANGS_AFTER_SECONDS}",
+               f"-report_slow_units={HANGS_AFTER_SECONDS}", "-rss_limit_mb=2048",
                "-malloc_limit_mb=600", f"-max_len={LONGEST.get(target, 4096)}",
                "-print_final_stats=1", f"-artifact_prefix={found}/", "-print_funcs=0"]
     if target == "scene" or target in MESHES:

@@ -1,5 +1,6 @@
 #include "fuzz/input_file.h"
 
+#include <fcntl.h>
 #include <unistd.h>
 
 #include <cstdio>
@@ -9,6 +10,12 @@
 
 namespace sss::stress {
 namespace {
+
+/// A file that stays open, as opening it takes longer than many a reader.
+struct InputFile {
+    std::filesystem::path path;
+    int descriptor = -1;
+};
 
 /// Removes what it has written when the process ends.
 class InputFiles {
@@ -27,15 +34,19 @@ public:
     InputFiles(const InputFiles&) = delete;
     InputFiles& operator=(const InputFiles&) = delete;
 
-    const std::filesystem::path& named(const std::string& extension) {
-        auto [place, isNew] = paths_.try_emplace(extension);
-        if (isNew) place->second = folder_ / ("input." + extension);
-        return place->second;
+    const InputFile& named(const std::string& extension) {
+        auto [place, isNew] = files_.try_emplace(extension);
+        InputFile& file = place->second;
+        if (!isNew) return file;
+        file.path = folder_ / ("input." + extension);
+        file.descriptor = open(file.path.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666);
+        if (file.descriptor < 0) fail("cannot open the input's file");
+        return file;
     }
 
 private:
     std::filesystem::path folder_;
-    std::map<std::string, std::filesystem::path> paths_;
+    std::map<std::string, InputFile> files_;
 };
 
 }  // namespace
@@ -47,12 +58,12 @@ void fail(const char* sentence) {
 
 const std::filesystem::path& inputFile(const char* extension, std::span<const std::byte> bytes) {
     static InputFiles files;
-    const std::filesystem::path& path = files.named(extension);
-    std::FILE* file = std::fopen(path.c_str(), "wb");
-    if (!file) fail("cannot open the input's file");
-    const bool isWhole = std::fwrite(bytes.data(), 1, bytes.size(), file) == bytes.size();
-    if (std::fclose(file) != 0 || !isWhole) fail("cannot write the input's file");
-    return path;
+    const InputFile& file = files.named(extension);
+    const auto size = static_cast<ssize_t>(bytes.size());
+    if (ftruncate(file.descriptor, size) != 0 ||
+        pwrite(file.descriptor, bytes.data(), bytes.size(), 0) != size)
+        fail("cannot write the input's file");
+    return file.path;
 }
 
 }  // namespace sss::stress
