@@ -58,7 +58,7 @@ SCALES = {
         "pictureAngles": [0.3, 0.1, 0.03, 0.01], "volumeSamples": [4, 16384],
         "volumeSeconds": 24, "volumeSeeds": 4,
         "modelScenes": list(models.SCENES)[:6], "modelSize": 32,
-        "models": ["dipole", "better_dipole", "photon_beam", "shape"], "modelSamples": 64,
+        "models": ["dipole", "better_dipole", "photon_beam", "shape"], "modelSamples": 1024,
         "modelTolerance": 0.03, "modelVolumeSamples": [64, 16384], "modelVolumeSeconds": 90,
         "modelVolumeSeeds": 6,
     },
@@ -77,7 +77,7 @@ SCALES = {
         "pictureAngles": [0.3, 0.1, 0.03, 0.01, 0.003, 0.001], "volumeSamples": [16, 16384],
         "volumeSeconds": 300, "volumeSeeds": 6,
         "modelScenes": list(models.SCENES), "modelSize": 48, "models": list(models.MODELS),
-        "modelSamples": 64, "modelTolerance": 0.01, "modelVolumeSamples": [64, 65536],
+        "modelSamples": 1024, "modelTolerance": 0.01, "modelVolumeSamples": [64, 65536],
         "modelVolumeSeconds": 1500, "modelVolumeSeeds": 8,
     },
 }
