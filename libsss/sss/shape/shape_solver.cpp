@@ -107,7 +107,7 @@ void ShapeSolver::correctOwnCells(std::span<const VolumeSource> sources, const K
             const Vec3 away = source.position - point.position;
             const float squared = glm::dot(away, away);
             const double radius = std::sqrt(double{point.areaMm2} / kPi);
-            if (double{squared} > std::pow(kFarFromCell * radius, 2)) continue;
+            if (!(double{squared} < std::pow(kFarFromCell * radius, 2))) continue;
             const double depth = std::abs(double{glm::dot(away, decodeUnitVector(point.normal))});
             const double aside = std::sqrt(std::max(0.0, double{squared} - depth * depth));
             const DRgb missing = diskMeanOfGreen(medium_.screening, radius, aside, depth) -
