@@ -155,16 +155,22 @@ TEST(AtomicFile, IsNotTornFromItsWriterAtItsBirth) {
 TEST(AtomicFile, AFullDiskLeavesTheOldFile) {
     const TemporaryFolder folder;
     writeFile(folder / "out", "old");
-    std::string message;
-    try {
-        const testing::FullDisk disk(100);
-        AtomicFile file(folder / "out");
-        file.append(std::string(1000, 'x'));
-        file.commit();
-    } catch (const Error& error) {
-        message = error.what();
+    const std::string much(1000, 'x');
+    for (const bool inPlace : {false, true}) {
+        std::string message;
+        try {
+            const testing::FullDisk disk(100);
+            AtomicFile file(folder / "out");
+            if (inPlace)
+                file.overwrite(0, std::as_bytes(std::span(much)));
+            else
+                file.append(much);
+            file.commit();
+        } catch (const Error& error) {
+            message = error.what();
+        }
+        EXPECT_NE(message.find("File too large"), std::string::npos) << message;
     }
-    EXPECT_NE(message.find("File too large"), std::string::npos) << message;
     EXPECT_EQ(readFile(folder / "out"), "old");
     EXPECT_EQ(folder.fileCount(), 1u);
 }
