@@ -16,19 +16,21 @@ double processCpuSeconds() {
     return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
 
-// Few names, and their order is the order of the report: a vector searched from its front.
-template <typename Item>
-Item& named(std::vector<Item>& items, std::string_view name) {
+// Few names, and their order is the order of the report: a list searched from its front.
+template <typename Items>
+typename Items::value_type& named(Items& items, std::string_view name) {
+    using Item = typename Items::value_type;
     const auto found = std::find_if(items.begin(), items.end(),
                                     [&](const Item& item) { return item.name == name; });
     if (found != items.end()) return *found;
-    items.push_back({});
-    items.back().name = name;
-    return items.back();
+    Item added;
+    added.name = name;
+    return items.emplace_back(std::move(added));
 }
 
-template <typename Item>
-Item valueOf(const std::vector<Item>& items, std::string_view name) {
+template <typename Items>
+typename Items::value_type valueOf(const Items& items, std::string_view name) {
+    using Item = typename Items::value_type;
     const auto found = std::find_if(items.begin(), items.end(),
                                     [&](const Item& item) { return item.name == name; });
     return found == items.end() ? Item{} : *found;
@@ -36,11 +38,13 @@ Item valueOf(const std::vector<Item>& items, std::string_view name) {
 
 }  // namespace
 
-RunStats::Timer::Timer(RunStats& stats, std::string phase)
-    : stats_(stats), phase_(std::move(phase)), cpuBegan_(processCpuSeconds()) {}
+RunStats::Timer::Timer(RunStats& stats, std::string_view phase)
+    : stats_(stats), phase_(stats.startedPhase(phase)), cpuBegan_(processCpuSeconds()) {}
 
 RunStats::Timer::~Timer() {
-    stats_.addSeconds(phase_, wall_.seconds(), processCpuSeconds() - cpuBegan_);
+    const std::lock_guard lock(stats_.mutex_);
+    phase_.wallSeconds += wall_.seconds();
+    phase_.cpuSeconds += processCpuSeconds() - cpuBegan_;
 }
 
 RunStats::RunStats(std::string program) : program_(std::move(program)) {}
@@ -55,11 +59,9 @@ void RunStats::value(std::string_view name, JsonValue value) {
     values_.set(std::string(name), std::move(value));
 }
 
-void RunStats::addSeconds(const std::string& phase, double wall, double cpu) {
+RunStats::Phase& RunStats::startedPhase(std::string_view name) {
     const std::lock_guard lock(mutex_);
-    Phase& entry = named(phases_, phase);
-    entry.wallSeconds += wall;
-    entry.cpuSeconds += cpu;
+    return named(phases_, name);
 }
 
 double RunStats::wallSeconds(std::string_view phase) const {

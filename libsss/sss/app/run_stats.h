@@ -3,6 +3,7 @@
 #include "sss/base/stopwatch.h"
 
 #include <cstdint>
+#include <deque>
 #include <filesystem>
 #include <mutex>
 #include <string>
@@ -14,6 +15,8 @@ namespace sss {
 /// What a run cost and made, for --stats: seconds a phase, counts, values, peak memory. Every call
 /// may come from any thread.
 class RunStats {
+    struct Phase;
+
 public:
     /// Adds the time until it is destroyed to its phase.
     class Timer {
@@ -24,9 +27,10 @@ public:
 
     private:
         friend class RunStats;
-        Timer(RunStats& stats, std::string phase);
+        Timer(RunStats& stats, std::string_view phase);
         RunStats& stats_;
-        std::string phase_;
+        Phase&
+            phase_;  // there from the start: where memory is out, nothing can be added at the end
         Stopwatch wall_;
         double cpuBegan_;
     };
@@ -36,7 +40,7 @@ public:
 
     /// Times a phase, by the wall and by the CPU seconds of all threads of the process:
     /// `const auto timer = stats.seconds("points");`. A phase met again adds up.
-    [[nodiscard]] Timer seconds(std::string phase) { return Timer(*this, std::move(phase)); }
+    [[nodiscard]] Timer seconds(std::string_view phase) { return Timer(*this, phase); }
     /// Adds to a counter (points, nodes, rays); counters never touched are not written.
     void count(std::string_view name, std::uint64_t amount);
     /// Sets a value: a number, text, or an array or object of them.
@@ -65,11 +69,11 @@ private:
         std::string name;
         std::uint64_t amount = 0;
     };
-    void addSeconds(const std::string& phase, double wall, double cpu);
+    Phase& startedPhase(std::string_view name);
 
     std::string program_;
     Stopwatch sinceStart_;
-    std::vector<Phase> phases_;
+    std::deque<Phase> phases_;  // which stay where they are
     std::vector<Counter> counters_;
     JsonValue values_ = JsonValue::object();
     mutable std::mutex mutex_;
