@@ -206,6 +206,8 @@ FaceCollector runReader(const char* reader, std::string bytes, const std::string
     om::IO::Options options(om::IO::Options::Binary);
     StringBuffer buffer(bytes);
     std::istream stream(&buffer);
+    // Where memory runs out in the midst of a word the stream would keep it to itself.
+    stream.exceptions(std::ios_base::badbit);
     if (!om::IO::IOManager().read(stream, reader, importer, options))
         throw Error(ErrorKind::Internal, where, "OpenMesh refuses what the sieve let through",
                     "export it again, best as PLY");
