@@ -43,6 +43,8 @@ def all_rows(build, out):
     row.worst = 1 - run / row.cases if row.cases else 1
     few = []
     for name, counts in sorted(files.items()):
+        if not counts:
+            continue  # a header of which nothing was compiled
         share = sum(1 for count in counts.values() if count) / len(counts)
         missed = [number for number, count in sorted(counts.items()) if not count]
         if share < LEAST_SHARE:
