@@ -214,10 +214,12 @@ void ball(const char* medium, double size, BallRows& rows) {
         };
         rows.truth.add(std::abs(double{sums[0][c]} / all[c] - 1), where);
         if (size > 3) continue;
+        rows.energy.expect(double{sums[0][c]} <= 1 + kTolerance, where);
+        // Channels of shorter mean free paths than the first want more points.
+        if (lit.spacingMm > 0.5 * optics.medium.channel(c).meanFreePathMm()) continue;
         const Profile& profile = optics.profile(c);
         const double exact = profile.total() - profile.tail(2 * radius);
         rows.closed.add(std::abs(double{sums[0][c]} / exact - 1), where);
-        rows.energy.expect(double{sums[0][c]} <= 1 + kTolerance, where);
     }
 }
 
