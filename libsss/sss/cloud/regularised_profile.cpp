@@ -31,14 +31,16 @@ constexpr double kBlendFrom = 2.5, kBlendTo = 5.0;
 RegularisedProfile::RegularisedProfile(const Profile& profile, double cellRadiusMm)
     : profile_(profile), a_(cellRadiusMm), isSingular_(profile.singularAtZero()) {
     if (!isSingular_) return;
-    double sum = 0;
+    double sum = 0, faded = 0;
     const double edges[] = {0.0, a_, kBlendFrom * a_, kBlendTo * a_};
-    for (int k = 0; k < 3; ++k)
-        sum +=
-            gauss16(edges[k], edges[k + 1], [&](double r) { return 2.0 * kPi * r * (*this)(r); });
+    for (int k = 0; k < 3; ++k) {
+        const auto ring = [&](double r) { return 2.0 * kPi * r * (*this)(r); };
+        sum += gauss16(edges[k], edges[k + 1], ring);
+        faded += gauss16(edges[k], edges[k + 1],
+                         [&](double r) { return ring(r) * fade(r / (kBlendTo * a_)); });
+    }
     const double excess = sum - (profile.total() - profile.tail(kBlendTo * a_));
-    // The integral of 2 pi r fade(r / R) is 2 pi R^2 / 7.
-    correction_ = excess * 7.0 / (2.0 * kPi * kBlendTo * kBlendTo * a_ * a_);
+    if (faded > 0) correction_ = std::min(0.5, excess / faded);
 }
 
 // (1 / (pi a^2)) integral of R(s) s arc(s) ds: whole circles by the profile's tail, the others by
@@ -66,7 +68,8 @@ double RegularisedProfile::operator()(double rMm) const {
     const double blend = fade(std::max(0.0, rMm / a_ - kBlendFrom) / (kBlendTo - kBlendFrom));
     double value = blend * average(rMm);
     if (blend < 1.0) value += (1.0 - blend) * profile_.reflectance(rMm);
-    return std::max(0.0, value - correction_ * fade(rMm / (kBlendTo * a_)));
+    // A share of it, not a constant: a cell of many mean free paths leaves a long tail alone.
+    return value * (1.0 - correction_ * fade(rMm / (kBlendTo * a_)));
 }
 
 }  // namespace sss

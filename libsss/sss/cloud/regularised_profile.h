@@ -23,7 +23,8 @@ private:
     const Profile& profile_;
     double a_;
     bool isSingular_;
-    double correction_ = 0;  // mm^-2, spread over 5 cell radii, so that the total stays
+    double correction_ = 0;  // share that is left out at 0, less and less up to 5 cell radii, so
+                             // that the total stays
 };
 
 }  // namespace sss
