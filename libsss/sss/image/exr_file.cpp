@@ -41,8 +41,8 @@ constexpr std::size_t kMaximumValues = std::size_t{1} << 30;  // 4 GiB of floats
 // No compression of the format packs flat pictures tighter than this many values a byte.
 constexpr std::size_t kMaximumValuesPerByte = 1 << 14;
 
-// OpenEXR hands on by its words alone what its tasks throw, at the end of its own; before that it may
-// quote the file, which can say anything.
+// OpenEXR hands on by its words alone what its tasks throw, at the end of its own; before that it
+// may quote the file, which can say anything.
 void rethrowOutOfMemory(const std::exception& error) {
     if (std::string_view(error.what()).ends_with(std::bad_alloc().what())) throw std::bad_alloc();
 }

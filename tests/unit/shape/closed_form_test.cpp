@@ -195,6 +195,7 @@ struct KnownSlab {
     const char* medium;
     double perMfp, reflected, passed, straight;
 };
+void PrintTo(const KnownSlab& slab, std::ostream* to) { *to << slab.medium << ' ' << slab.perMfp; }
 
 class Slab : public ::testing::TestWithParam<KnownSlab> {};
 
