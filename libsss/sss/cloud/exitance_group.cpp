@@ -56,8 +56,19 @@ GridStencil quadraticStencil(const Vec2& place, std::uint32_t n) {
     return stencil;
 }
 
-// The most frequent grids, of a single triangle each, without the search for it.
-GridStencil stencilOf(const Vec2& place, std::uint32_t segments) {
+// Sum over a stencil of what `valueAt` gives at its points.
+template <typename ValueAt>
+Rgb interpolate(const GridStencil& stencil, std::uint32_t segments, const ValueAt& valueAt) {
+    const std::size_t count = segments % 2 == 0 ? 6 : 3;
+    Rgb sum(0.0f);
+    for (std::size_t k = 0; k < count; ++k) sum += valueAt(stencil.point[k]) * stencil.weight[k];
+    return sum;
+}
+
+}  // namespace
+
+GridStencil gridStencil(const Vec2& place, std::uint32_t segments) {
+    // The most frequent grids are a single triangle each: without the search for it.
     const float x = place.x, y = place.y, z = 1.0f - x - y;
     if (segments == 1) return {{0, 1, 2}, {z, x, y}};
     if (segments == 2)
@@ -67,27 +78,11 @@ GridStencil stencilOf(const Vec2& place, std::uint32_t segments) {
     return segments % 2 == 0 ? quadraticStencil(place, segments) : linearStencil(place, segments);
 }
 
-// Sum over a stencil of what `valueAt` gives at its points.
-template <typename ValueAt>
-Rgb interpolate(const GridStencil& stencil, std::uint32_t segments, const ValueAt& valueAt) {
-    Rgb sum(0.0f);
-    for (std::size_t k = 0; k < 3; ++k) sum += valueAt(stencil.point[k]) * stencil.weight[k];
-    if (segments % 2 == 0)
-        for (std::size_t k = 3; k < 6; ++k) sum += valueAt(stencil.point[k]) * stencil.weight[k];
-    return sum;
-}
-
-}  // namespace
-
-GridStencil gridStencil(const Vec2& place, std::uint32_t segments) {
-    return stencilOf(place, segments);
-}
-
 Rgb ExitanceGroup::at(std::uint32_t patch, const Vec2& inPatch) const {
     const std::uint32_t n = segments[patch];
     const std::uint16_t* site = siteOf.data() + firstSite[patch];
     // Parabolas may undershoot where the light ends.
-    return glm::max(interpolate(stencilOf(inPatch, n), n,
+    return glm::max(interpolate(gridStencil(inPatch, n), n,
                                 [&](std::uint32_t point) { return values[site[point]]; }),
                     Rgb(0.0f));
 }
@@ -97,7 +92,7 @@ Rgb ExitanceGroup::at(std::uint32_t patch, const Vec2& inPatch, const Vec3& towa
     if (slopes.empty()) return value;
     const std::uint32_t n = segments[patch];
     const std::uint16_t* site = siteOf.data() + firstSite[patch];
-    const Rgb lean = interpolate(stencilOf(inPatch, n), n, [&](std::uint32_t point) {
+    const Rgb lean = interpolate(gridStencil(inPatch, n), n, [&](std::uint32_t point) {
         return slopes[site[point]].along(towards);
     });
     return value + glm::clamp(lean, -kMostLean * value, kMostLean * value);
