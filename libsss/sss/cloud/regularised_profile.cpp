@@ -16,20 +16,18 @@ double fade(double x) {
     return 1.0 - x * x * x * (10.0 + x * (-15.0 + 6.0 * x));
 }
 
-// Angle of the circle of radius s around a point that lies inside a disk of radius a at distance r.
-double arcInsideDisk(double s, double r, double a) {
-    if (s <= a - r) return 2.0 * kPi;
-    if (s >= a + r || s <= r - a) return 0.0;
-    return 2.0 * std::acos(std::clamp((r * r + s * s - a * a) / (2.0 * r * s), -1.0, 1.0));
-}
-
+// In cell radii: the disk that is averaged over.
+constexpr double kRim = 1.6;
 // In cell radii: where the average begins to give way to the profile itself, and where it has.
 constexpr double kBlendFrom = 2.5, kBlendTo = 5.0;
 
 }  // namespace
 
 RegularisedProfile::RegularisedProfile(const Profile& profile, double cellRadiusMm)
-    : profile_(profile), a_(cellRadiusMm), isSingular_(profile.singularAtZero()) {
+    : profile_(profile),
+      a_(cellRadiusMm),
+      rim_(kRim * cellRadiusMm),
+      isSingular_(profile.singularAtZero()) {
     if (!isSingular_) return;
     double sum = 0, faded = 0;
     const double edges[] = {0.0, a_, kBlendFrom * a_, kBlendTo * a_};
@@ -43,24 +41,52 @@ RegularisedProfile::RegularisedProfile(const Profile& profile, double cellRadius
     if (faded > 0) correction_ = std::min(0.5, excess / faded);
 }
 
-// (1 / (pi a^2)) integral of R(s) s arc(s) ds: whole circles by the profile's tail, the others by
-// s = mid - half cos(phi), which makes the square-root ends of the arc smooth.
-double RegularisedProfile::average(double rMm) const {
-    double sum = rMm < a_ ? profile_.total() - profile_.tail(a_ - rMm) : 0.0;
-    constexpr std::size_t kSteps = 48;
+// Integral of (1 - rho^2 / R^2)^2 by the angle over the part within the disk of a circle of radius
+// s around a place at distance r from the disk's middle: rho^2 = r^2 + s^2 - 2 r s cos.
+double RegularisedProfile::weightOfCircle(double s, double rMm) const {
+    if (s >= rim_ + rMm || s <= rMm - rim_) return 0.0;
+    const double square = rim_ * rim_;
+    const double half =  // of the arc
+        s <= rim_ - rMm
+            ? kPi
+            : std::acos(std::clamp((rMm * rMm + s * s - square) / (2.0 * rMm * s), -1.0, 1.0));
+    const double mean = 1.0 - (rMm * rMm + s * s) / square, swing = 2.0 * rMm * s / square;
+    return 2.0 * (mean * mean + 0.5 * swing * swing) * half +
+           swing * (4.0 * mean + swing * std::cos(half)) * std::sin(half);
+}
+
+// Integral of R(s) s (weight of the circle - `without`) ds, with s = mid - half cos(phi), which
+// makes the square-root ends of arcs smooth.
+double RegularisedProfile::overCircles(double from, double to, double rMm, double without) const {
+    constexpr std::size_t kPanels = 2, kSteps = kPanels * kGauss16.size();
     std::array<float, kSteps> radii, values;
-    const double inner = std::abs(a_ - rMm), outer = a_ + rMm;
-    const double mid = 0.5 * (inner + outer), half = 0.5 * (outer - inner);
-    const auto phi = [](std::size_t i) { return (static_cast<double>(i) + 0.5) / kSteps * kPi; };
-    for (std::size_t i = 0; i < kSteps; ++i)
-        radii[i] = static_cast<float>(mid - half * std::cos(phi(i)));
-    profile_.reflectance(radii, values);
+    std::array<double, kSteps> s, weight;
+    const double mid = 0.5 * (from + to), half = 0.5 * (to - from), panel = kPi / kPanels;
     for (std::size_t i = 0; i < kSteps; ++i) {
-        const double s = mid - half * std::cos(phi(i));
-        sum += static_cast<double>(values[i]) * s * arcInsideDisk(s, rMm, a_) * half *
-               std::sin(phi(i)) * kPi / kSteps;
+        const GaussPoint& point = kGauss16[i % kGauss16.size()];
+        const double phi = (static_cast<double>(i / kGauss16.size()) + point.node) * panel;
+        s[i] = mid - half * std::cos(phi);
+        weight[i] = point.weight * panel * half * std::sin(phi);
+        radii[i] = static_cast<float>(s[i]);
     }
-    return sum / (kPi * a_ * a_);
+    profile_.reflectance(radii, values);
+    double sum = 0;
+    for (std::size_t i = 0; i < kSteps; ++i)
+        sum += weight[i] * static_cast<double>(values[i]) * s[i] *
+               (weightOfCircle(s[i], rMm) - without);
+    return sum;
+}
+
+// Whole circles by the profile's tail, with the weight at the place itself, and by what other
+// weights differ from that, which leaves no singularity; the other circles by quadrature.
+double RegularisedProfile::average(double rMm) const {
+    double sum = overCircles(std::abs(rim_ - rMm), rim_ + rMm, rMm, 0);
+    if (rMm < rim_) {
+        const double share = 1.0 - (rMm / rim_) * (rMm / rim_), here = share * share;
+        sum += here * (profile_.total() - profile_.tail(rim_ - rMm)) +
+               overCircles(0, rim_ - rMm, rMm, 2.0 * kPi * here);
+    }
+    return 3.0 * sum / (kPi * rim_ * rim_);
 }
 
 double RegularisedProfile::operator()(double rMm) const {

@@ -46,12 +46,8 @@ TransformStep readScale(const Node& node) {
 TransformStep readMatrix(const Node& node) {
     DMat4 matrix(1);
     const std::vector<Node> numbers = entries(node, 16, 16);
-    for (int row = 0; row < 4; ++row) {
-        for (int column = 0; column < 4; ++column) {
-            const Node& entry = numbers[static_cast<std::size_t>(4 * row + column)];
-            matrix[column][row] = number(entry, {-1e9, 1e9});
-        }
-    }
+    for (int i = 0; i < 16; ++i)
+        matrix[i % 4][i / 4] = number(numbers[static_cast<std::size_t>(i)], {-1e9, 1e9});
     for (int column = 0; column < 4; ++column) {
         if (matrix[column][3] == (column == 3 ? 1.0 : 0.0)) continue;
         fail(node, "is not affine", "its last four numbers, the last row, must be 0, 0, 0, 1");
@@ -102,7 +98,7 @@ std::vector<TransformStep> readTransform(const Node& node) {
                  "one step an entry, so that their order is plain: [{ \"scale\": 2 }, "
                  "{ \"translate\": [1, 0, 0] }]");
         }
-        steps.push_back(std::move(step));
+        steps.push_back(step);
     }
     return steps;
 }

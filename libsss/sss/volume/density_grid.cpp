@@ -22,6 +22,12 @@ Vec4 trilinear(const std::array<Vec4, 8>& v, const Vec3& p) {
     return mix(y0, y1, p.z);
 }
 
+std::size_t product(const DensityGrid::Cell& counts) {
+    std::size_t all = 1;
+    for (const int count : counts) all *= static_cast<std::size_t>(count);
+    return all;
+}
+
 }  // namespace
 
 DensityGrid::DensityGrid(const Cell& nodes, int channels, std::vector<float> values)
@@ -29,14 +35,9 @@ DensityGrid::DensityGrid(const Cell& nodes, int channels, std::vector<float> val
       cells_{nodes[0] - 1, nodes[1] - 1, nodes[2] - 1},
       channels_(channels),
       values_(std::move(values)) {
-    std::size_t count = 1, expected = static_cast<std::size_t>(channels);
-    for (int axis = 0; axis < 3; ++axis) {
-        count *= static_cast<std::size_t>(cells_[static_cast<std::size_t>(axis)]);
-        expected *= static_cast<std::size_t>(nodes_[static_cast<std::size_t>(axis)]);
-    }
-    SSS_ASSERT_EQ(values_.size(), expected);
-    isEmpty_.resize(count);
-    for (std::size_t i = 0; i < count; ++i) isEmpty_[i] = mean(cellOf(i)) == Vec4(0) ? 1 : 0;
+    SSS_ASSERT_EQ(values_.size(), product(nodes_) * static_cast<std::size_t>(channels_));
+    isEmpty_.resize(product(cells_));
+    for (std::size_t i = 0; i < isEmpty_.size(); ++i) isEmpty_[i] = mean(cellOf(i)) == Vec4(0) ? 1 : 0;
 }
 
 DensityGrid DensityGrid::read(const GridFile& file) {

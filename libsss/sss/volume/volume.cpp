@@ -4,7 +4,7 @@
 
 namespace sss {
 
-Volume::Volume(const VolumeSettings& settings, VolumePlace place)
+Volume::Volume(const VolumeSettings& settings, const VolumePlace& place)
     : coefficients_{settings.sigmaS, settings.sigmaA + settings.sigmaS,
                     settings.sigmaA * settings.emission, static_cast<float>(settings.g)},
       worldFromUnit_(place.worldFromUnit),

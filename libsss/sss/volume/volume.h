@@ -38,7 +38,7 @@ struct VolumeCoefficients {
 class Volume {
 public:
     /// Opens the grid's file; throws its errors.
-    Volume(const VolumeSettings& settings, VolumePlace place);
+    Volume(const VolumeSettings& settings, const VolumePlace& place);
 
     const VolumeCoefficients& coefficients() const { return coefficients_; }
     bool scatters() const { return !isZero(coefficients_.sigmaS); }

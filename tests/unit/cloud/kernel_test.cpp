@@ -52,18 +52,17 @@ TEST(KernelTable, EqualsTheProfileAtAnyIndexOfRefraction) {
             }
 }
 
-TEST(KernelTable, EqualsPhotonBeamDiffusion) {
-    for (const double st : {1e-6, 1e6}) {
+TEST(KernelTable, EqualsPhotonBeams) {
+    for (const auto& [name, st] : {std::pair{"photon_beam", 1e-6}, {"photon_beam_single", 1e6}}) {
         const ChannelMedium m{0.05 * st, 0.95 * st, 0, 1.3};
-        EXPECT_LT(tableError(*makeProfile("photon_beam", m), 1 / st), 1e-4) << st;
+        EXPECT_LT(tableError(*makeProfile(name, m), 1 / st), 1e-4) << name;
     }
 }
 
-// The mean of 1 / r over a disk has a kink at the disk's rim, which a cubic cuts short.
-TEST(KernelTable, EqualsNormalizedDiffusionButForTheRimOfTheCell) {
+TEST(KernelTable, EqualsNormalizedDiffusionAlsoAtTheRimOfTheCell) {
     for (const double eta : {0.75, 1.0, 3.0}) {
         const ChannelMedium m{0.2, 1.8, 0, eta};
-        EXPECT_LT(tableError(*makeProfile("normalized_diffusion", m), 0.5), 2e-3) << eta;
+        EXPECT_LT(tableError(*makeProfile("normalized_diffusion", m), 0.5), 1e-4) << eta;
     }
 }
 
@@ -147,7 +146,8 @@ TEST(KernelTable, BoundsHoldAndDecrease) {
                         return regularised[static_cast<std::size_t>(c)](x);
                     };
                     if (f(r) < 1e-12 * f(0)) continue;
-                    const double norm = tensorNorm(f, k, r, 2e-3 * std::hypot(r, 0.3 * l));
+                    // Steps in which single precision does not show.
+                    const double norm = tensorNorm(f, k, r, 6e-3 * std::hypot(r, 0.3 * l));
                     EXPECT_GE(static_cast<double>(bound), 0.999 * norm)
                         << name << " " << model << " order " << k << " r/l " << r / l;
                     largest[k][c] = std::max(largest[k][c], static_cast<float>(norm));
