@@ -25,8 +25,8 @@ class Usage(CliTest):
     def test_values_that_make_no_sense(self):
         scene = self.write_scene()
         for option, value in (("--spacing", "-1"), ("--spacing", "nan"), ("--tolerance", "0"),
-                              ("--tolerance", "2"), ("--threads", "many"), ("--seed", "-1"),
-                              ("--max-points", "0"), ("--meters-per-unit", "0")):
+                              ("--tolerance", "2"), ("--threads", "many"), ("--threads", "100000"),
+                              ("--seed", "-1"), ("--max-points", "0"), ("--meters-per-unit", "0")):
             with self.subTest(option=option, value=value):
                 self.assert_refused(USAGE, option, self.preprocess, scene, "-o", "out.ssc",
                                     option, value)

@@ -22,7 +22,7 @@ public:
     InlineVector& operator=(const InlineVector&) = delete;
 
     template <typename... Arguments>
-    T& emplace_back(Arguments&&... arguments) {
+    T& add(Arguments&&... arguments) {
         SSS_ASSERT_LT(size_, N);
         return *std::construct_at(begin() + size_++, std::forward<Arguments>(arguments)...);
     }
@@ -36,7 +36,7 @@ public:
     std::span<T> span() { return {begin(), size_}; }
 
 private:
-    alignas(T) std::array<std::byte, N * sizeof(T)> bytes_;
+    alignas(T) std::array<std::byte, sizeof(T[N])> bytes_;
     std::size_t size_ = 0;
 };
 

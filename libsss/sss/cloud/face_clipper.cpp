@@ -164,6 +164,9 @@ double FaceClipper::reachSquared(const DVec3& point) const {
 
 // Keeps the part of the polygon that is nearer to `point` [Sutherland & Hodgman 1974].
 void FaceClipper::cutAway(const DVec3& point, std::uint32_t other) {
+    // Once is enough: the edge's own rounding would put corners somewhere along it.
+    for (const Corner& corner : polygon_)
+        if (corner.across == other) return;
     const DVec3 rival(seeds_.positions[other]);
     const DVec3 axis = rival - point, middle = 0.5 * (rival + point);
     const auto beyond = [&](const Corner& corner) {

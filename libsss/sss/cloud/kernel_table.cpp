@@ -120,8 +120,8 @@ struct Slopes {
     double f, d1, d2, d3;
     Slopes(const RegularisedProfile& profile, double r, double h) {
         std::array<double, 5> y;
-        for (int k = -2; k <= 2; ++k)
-            y[static_cast<std::size_t>(k + 2)] = profile(std::abs(r + k * h));
+        for (std::size_t k = 0; k < y.size(); ++k)
+            y[k] = profile(std::abs(r + (static_cast<double>(k) - 2) * h));
         f = y[2];
         d1 = (y[0] - 8 * y[1] + 8 * y[3] - y[4]) / (12 * h);
         d2 = (-y[0] + 16 * y[1] - 30 * y[2] + 16 * y[3] - y[4]) / (12 * h * h);

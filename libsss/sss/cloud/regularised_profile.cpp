@@ -58,17 +58,20 @@ double RegularisedProfile::weightOfCircle(double s, double rMm) const {
 // Integral of R(s) s (weight of the circle - `without`) ds, with s = mid - half cos(phi), which
 // makes the square-root ends of arcs smooth.
 double RegularisedProfile::overCircles(double from, double to, double rMm, double without) const {
-    constexpr std::size_t kPanels = 2, kSteps = kPanels * kGauss16.size();
+    constexpr int kPanels = 2;
+    constexpr std::size_t kSteps = kPanels * kGauss16.size();
     std::array<float, kSteps> radii, values;
     std::array<double, kSteps> s, weight;
     const double mid = 0.5 * (from + to), half = 0.5 * (to - from), panel = kPi / kPanels;
-    for (std::size_t i = 0; i < kSteps; ++i) {
-        const GaussPoint& point = kGauss16[i % kGauss16.size()];
-        const double phi = (static_cast<double>(i / kGauss16.size()) + point.node) * panel;
-        s[i] = mid - half * std::cos(phi);
-        weight[i] = point.weight * panel * half * std::sin(phi);
-        radii[i] = static_cast<float>(s[i]);
-    }
+    std::size_t k = 0;
+    for (int p = 0; p < kPanels; ++p)
+        for (const GaussPoint& point : kGauss16) {
+            const double phi = (p + point.node) * panel;
+            s[k] = mid - half * std::cos(phi);
+            weight[k] = point.weight * panel * half * std::sin(phi);
+            radii[k] = static_cast<float>(s[k]);
+            ++k;
+        }
     profile_.reflectance(radii, values);
     double sum = 0;
     for (std::size_t i = 0; i < kSteps; ++i)

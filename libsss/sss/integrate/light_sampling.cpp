@@ -93,10 +93,10 @@ void sampleDirect(const World& world, std::span<const LightQuery> queries,
         for (std::size_t k = first; k < queries.size(); ++k) {
             if (queries[k].pick.index != pick.index) continue;
             isDone[k] = true;
-            which.emplace_back(k);
-            from.emplace_back(queries[k].from);
-            u.emplace_back(queries[k].u);
-            found.emplace_back();
+            which.add(k);
+            from.add(queries[k].from);
+            u.add(queries[k].u);
+            found.add();
         }
         const Light& light = *world.lights()[pick.index];
         light.sampleTogether(from.span(), u.span(), found.span());

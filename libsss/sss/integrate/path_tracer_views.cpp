@@ -73,7 +73,7 @@ void PathTracer::trace(std::span<const Ray> rays, std::span<Sampler> samplers,
 // The surfaces that the views meet first, and what these send out by multiple scattering.
 void PathTracer::findSurfaces(Views& views, PathCounts& counts) const {
     ViewList<Hit> found;
-    for (std::size_t i = 0; i < views.rays.size(); ++i) found.emplace_back();
+    for (std::size_t i = 0; i < views.rays.size(); ++i) found.add();
     world_.rays().intersectTogether(views.rays, RayScene::Together::Parallel, found.span());
     counts.rays += views.rays.size();
     for (std::size_t i = 0; i < views.rays.size(); ++i) {
@@ -85,8 +85,7 @@ void PathTracer::findSurfaces(Views& views, PathCounts& counts) const {
                        counts);
             continue;
         }
-        const FirstSurface& surface =
-            views.surfaces.emplace_back(*this, found[i], -ray.direction, i);
+        const FirstSurface& surface = views.surfaces.add(*this, found[i], -ray.direction, i);
         const SurfaceHit& hit = surface.hit;
         seen.diffusion = seen.single = Rgb(0);
         describeFirstHit(world_, ray, hit, surface.bsdf, seen);
@@ -119,8 +118,8 @@ void PathTracer::lightDirectly(Views& views, PathCounts& counts) const {
         const auto query = queryAbove(world_, world_.leave(surface.hit, normal), normal,
                                       views.samplers[surface.view]);
         if (!query) continue;
-        queries.emplace_back(*query);
-        asking.emplace_back(&surface);
+        queries.add(*query);
+        asking.add(&surface);
     }
     std::array<DirectSample, kMostViews> samples;
     sampleDirect(world_, queries.span(), samples);
@@ -137,8 +136,8 @@ void PathTracer::lightDirectly(Views& views, PathCounts& counts) const {
             sum += light * arrivingShare(world_, shadow.ray, shadow.volume, counts.rays);
             continue;
         }
-        shadows.emplace_back(shadow.ray);
-        lit.emplace_back(Lit{light, &sum});
+        shadows.add(shadow.ray);
+        lit.add(Lit{light, &sum});
     }
     std::array<bool, kMostViews> occluded;
     world_.rays().occludedTogether(shadows.span(), RayScene::Together::Parted, occluded);
@@ -180,12 +179,12 @@ void PathTracer::scatterOnce(Views& views, PathCounts& counts) const {
             ++counts.singleSkipped;
             continue;
         }
-        views.queries.emplace_back(SingleQuery{&optics, &hit, -views.rays[surface.view].direction,
-                                               surface.bsdf.shadingNormal(), side});
-        wanted.emplace_back(Wanted{&views.seen[surface.view], weight});
+        views.queries.add(SingleQuery{&optics, &hit, -views.rays[surface.view].direction,
+                                      surface.bsdf.shadingNormal(), side});
+        wanted.add(Wanted{&views.seen[surface.view], weight});
     }
     ViewList<SingleFound> found;
-    for (std::size_t k = 0; k < wanted.size(); ++k) found.emplace_back();
+    for (std::size_t k = 0; k < wanted.size(); ++k) found.add();
     SingleScatterCounts spent;
     singleScattering(world_, views.queries.span(), found.span(), spent);
     counts.singleSamples += spent.samples;
@@ -195,9 +194,9 @@ void PathTracer::scatterOnce(Views& views, PathCounts& counts) const {
         Rgb& sum = wanted[k].seen->single;
         sum = found[k].radiance * wanted[k].weight;
         if (isZero(found[k].weight)) continue;
-        views.onwards.emplace_back(Onward{found[k].ray, found[k].origin, bounces,
-                                          found[k].weight * wanted[k].weight, &sum,
-                                          &views.queries[k].sampler});
+        views.onwards.add(Onward{found[k].ray, found[k].origin, bounces,
+                                 found[k].weight * wanted[k].weight, &sum,
+                                 &views.queries[k].sampler});
     }
 }
 
@@ -220,7 +219,7 @@ void PathTracer::reflect(Views& views) const {
         Ray ray;
         ScatterOrigin origin;
         if (!scatter(surface.hit, surface.bsdf, sampler, ray, origin, throughput)) continue;
-        views.onwards.emplace_back(
+        views.onwards.add(
             Onward{ray, origin, bounces, throughput, &reflectedBy(surface, views), &sampler});
     }
 }
@@ -231,8 +230,8 @@ void PathTracer::follow(std::span<Onward> onwards, PathCounts& counts) const {
     InlineVector<Ray, 2 * kMostViews> rays;
     InlineVector<Hit, 2 * kMostViews> found;
     for (const Onward& onward : onwards) {
-        rays.emplace_back(onward.ray);
-        found.emplace_back();
+        rays.add(onward.ray);
+        found.add();
     }
     world_.rays().intersectTogether(rays.span(), RayScene::Together::Parted, found.span());
     counts.rays += rays.size();
@@ -256,8 +255,8 @@ void PathTracer::seeLamps(std::span<Onward> onwards, PathCounts& counts) const {
             continue;
         }
         onward.weight *= light;
-        rays.emplace_back(onward.ray);
-        lit.emplace_back(&onward);
+        rays.add(onward.ray);
+        lit.add(&onward);
     }
     std::array<bool, 2 * kMostViews> occluded;
     world_.rays().occludedTogether(rays.span(), RayScene::Together::Parted, occluded);

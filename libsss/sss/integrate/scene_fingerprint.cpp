@@ -12,7 +12,7 @@ namespace sss {
 namespace {
 
 // Raised when the algorithms of pass 1 change what they make of the same input.
-constexpr std::uint64_t kPassOneVersion = 3;
+constexpr std::uint64_t kPassOneVersion = 4;
 constexpr std::uint64_t kExitanceVersion = 4;  // the same of the diffusion sum and its sites
 constexpr std::uint64_t kShapeVersion = 3;     // ... and of diffusion on the shape
 

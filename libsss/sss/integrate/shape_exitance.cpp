@@ -78,6 +78,28 @@ FresnelMoments momentsOf(const TranslucentMaterial& material) {
                : polynomialFresnelMoments(material.medium.eta);
 }
 
+// What becomes of the light that entered, if `all` of it leaves that has scattered and `single` of
+// that but once, and whether a channel's solution is sound.
+void shareOut(const BeamSources& light, const DRgb& all, const DRgb& single, double tolerance,
+              ShapeExitance& result) {
+    for (int c = 0; c < 3; ++c) {
+        const auto channel = static_cast<std::size_t>(c);
+        const double entered = light.entered[c];
+        if (!(entered > 0)) continue;
+        result.unscattered[c] = light.unscattered[c] / entered;
+        if (result.isTooCoarse[channel]) continue;
+        const double gain = (all[c] - light.scattered[c]) / entered;
+        result.gain = std::max(result.gain, gain);
+        // NaN is unsound too.
+        result.isUnsound[channel] =
+            !(gain <= kMostGain && result.report.solve.residual[c] <= tolerance);
+        if (result.isUnsound[channel]) continue;
+        result.leaves[c] = (all[c] - single[c]) / entered;
+        result.single[c] = single[c] / entered;
+        result.absorbed[c] = 1 - (all[c] + light.unscattered[c]) / entered;
+    }
+}
+
 }  // namespace
 
 ShapeExitance solveShape(const World& world, int bodyIndex, const BodyOptics& optics,
@@ -141,29 +163,15 @@ ShapeExitance solveShape(const World& world, int bodyIndex, const BodyOptics& op
         for (int c = 0; c < 3; ++c) all[c] += exitanceAt(i, c) * area;
         if (!once.empty()) single += DRgb(once[i]) * area;
     }
-    std::array<bool, 3> keepsProfile = result.isTooCoarse;
-    for (int c = 0; c < 3; ++c) {
-        if (!(light.entered[c] > 0)) continue;
-        result.unscattered[c] = light.unscattered[c] / light.entered[c];
-        if (result.isTooCoarse[static_cast<std::size_t>(c)]) continue;
-        const auto channel = static_cast<std::size_t>(c);
-        const double gain = (all[c] - light.scattered[c]) / light.entered[c];
-        result.gain = std::max(result.gain, gain);
-        // NaN is unsound too.
-        keepsProfile[channel] = result.isUnsound[channel] =
-            !(gain <= kMostGain && result.report.solve.residual[c] <= tolerance);
-        if (keepsProfile[channel]) continue;
-        result.leaves[c] = (all[c] - single[c]) / light.entered[c];
-        result.single[c] = single[c] / light.entered[c];
-        result.absorbed[c] = 1 - (all[c] + light.unscattered[c]) / light.entered[c];
-    }
+    shareOut(light, all, single, tolerance, result);
     result.solved.resize(flat.size());
     measureDepths(world, bodyIndex, cloud.cloud.points, medium, result.solved);
     for (std::size_t i = 0; i < flat.size(); ++i)
         for (int c = 0; c < 3; ++c) {
             SolvedExitance& solved = result.solved[i];
             solved.exitance[c] = flat[i][c];
-            if (keepsProfile[static_cast<std::size_t>(c)]) continue;
+            const auto channel = static_cast<std::size_t>(c);
+            if (result.isTooCoarse[channel] || result.isUnsound[channel]) continue;
             const double scatteredOnce = once.empty() ? 0.0 : double{once[i][c]};
             solved.correction[c] =
                 static_cast<float>(exitanceAt(i, c) - scatteredOnce - double{flat[i][c]});

@@ -251,15 +251,15 @@ void singleScattering(const World& world, std::span<SingleQuery> queries,
     counts.samples += queries.size();
     SingleList<InScattering> insides;
     for (SingleQuery& query : queries)
-        if (const auto inside = scatteringPlace(world, query)) insides.emplace_back(*inside);
+        if (const auto inside = scatteringPlace(world, query)) insides.add(*inside);
 
     SingleList<LightQuery> lights;
     SingleList<InScattering*> asking;  // by light
     for (InScattering& inside : insides.span()) {
         const auto light = inside.choose(world);
         if (!light) continue;
-        lights.emplace_back(*light);
-        asking.emplace_back(&inside);
+        lights.add(*light);
+        asking.add(&inside);
     }
     std::array<DirectSample, kMostSingle> samples;
     sampleDirect(world, lights.span(), samples);
@@ -272,10 +272,10 @@ void singleScattering(const World& world, std::span<SingleQuery> queries,
     for (const InScattering& inside : insides.span()) {
         Ray line;
         if (!inside.aim(line)) continue;
-        aimed.emplace_back(&inside);
-        lines.emplace_back(line);
-        masks.emplace_back(bodyMask(inside.query().hit->body));
-        hits.emplace_back();
+        aimed.add(&inside);
+        lines.add(line);
+        masks.add(bodyMask(inside.query().hit->body));
+        hits.add();
     }
     world.rays().intersectTogether(lines.span(), RayScene::Together::Parted, hits.span(),
                                    masks.span());
@@ -300,15 +300,15 @@ void singleScattering(const World& world, std::span<SingleQuery> queries,
         here.radiance = inside.gather(*exit, shadow, here);
         if (isZero(here.radiance) && isZero(here.weight)) continue;
         const std::size_t inward = ways.size();
-        ways.emplace_back(inside.inward());
-        wayMasks.emplace_back(masks[i]);
+        ways.add(inside.inward());
+        wayMasks.add(masks[i]);
         if (!isZero(here.radiance) && world.hasVolumes())
             here.radiance *= arrivingShare(world, shadow, inside.volume(), counts.rays);
         else if (!isZero(here.radiance)) {
-            ways.emplace_back(shadow);
-            wayMasks.emplace_back(kAllGeometry);
+            ways.add(shadow);
+            wayMasks.add(kAllGeometry);
         }
-        promises.emplace_back(Promise{&here, inward, ways.size() - 1});
+        promises.add(Promise{&here, inward, ways.size() - 1});
     }
     std::array<bool, 2 * kMostSingle> blocked;
     world.rays().occludedTogether(ways.span(), RayScene::Together::Parted, blocked,

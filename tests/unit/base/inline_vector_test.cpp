@@ -11,8 +11,8 @@ TEST(InlineVector, HoldsWhatWasAddedInPlace) {
     InlineVector<DVec3, 4> list;
     EXPECT_EQ(list.size(), 0u);
     EXPECT_EQ(list.begin(), list.end());
-    DVec3& first = list.emplace_back(1.0, 2.0, 3.0);
-    list.emplace_back(4.0);
+    DVec3& first = list.add(1.0, 2.0, 3.0);
+    list.add(4.0);
     EXPECT_EQ(&first, &list[0]);
     first.x = 7;
     double sum = 0;
@@ -30,7 +30,7 @@ struct Counted {
 TEST(InlineVector, MakesOnlyWhatIsAdded) {
     int made = 0;
     InlineVector<Counted, 100> list;
-    for (int i = 0; i < 3; ++i) list.emplace_back(made);
+    for (int i = 0; i < 3; ++i) list.add(made);
     EXPECT_EQ(made, 3);
     EXPECT_EQ(reinterpret_cast<std::uintptr_t>(list.begin()) % 32, 0u);
 }

@@ -108,6 +108,26 @@ TEST(SurfaceCells, AFaceThatNoPointFacesGoesToTheNearest) {
     EXPECT_NEAR(area, 4, 1e-12);
 }
 
+// Rounding, which differs from unit to unit, must not put corners where there are none: where
+// places in a cell come to lie would hang on it.
+TEST(SurfaceCells, AreTheSameInAnyUnit) {
+    const DVec3 size(8, 9, 10);
+    const TriangleMesh mesh = makeBox(size);
+    const Scattered points = scatter(mesh, 300, 3);
+    const SurfaceCells cells = cellsOf(mesh, points);
+    for (const double unit : {1e-6, 1. / 3, 25.4, 1e6}) {
+        Scattered scaled = points;
+        for (Vec3& p : scaled.positions) p = Vec3(DVec3(p) * unit);
+        const SurfaceCells other = cellsOf(makeBox(size * unit), scaled);
+        ASSERT_EQ(other.pieces.size(), cells.pieces.size()) << unit;
+        ASSERT_EQ(other.corners.size(), cells.corners.size()) << unit;
+        for (std::size_t k = 0; k < cells.pieces.size(); ++k)
+            ASSERT_EQ(other.pieces[k].cornerCount, cells.pieces[k].cornerCount) << unit;
+        for (std::size_t k = 0; k < cells.corners.size(); ++k)
+            EXPECT_LT(glm::length(other.corners[k] - cells.corners[k]), 1e-5f) << unit;
+    }
+}
+
 TEST(SurfaceCells, PlacesInACellAreEvenlySpread) {
     const TriangleMesh mesh = makeBox({3, 2, 1}, 0.3);
     const Scattered points = scatter(mesh, 60, 9);
