@@ -22,6 +22,17 @@ std::vector<Vec3> positionsOf(std::span<const SurfacePoint> points) {
     return positions;
 }
 
+// From how deep on the mean the light comes that a line of sight sees which ends within by this
+// share, in mean free paths: 1 where that is all.
+Rgb meanDepth(const Rgb& collided) {
+    Rgb depth(1);
+    for (int c = 0; c < 3; ++c) {
+        const float straight = 1.0f - collided[c];
+        if (straight > 1e-6f) depth[c] += straight * std::log(straight) / collided[c];
+    }
+    return depth;
+}
+
 }  // namespace
 
 PointInterpolator::PointInterpolator(std::span<const SurfacePoint> points,
@@ -32,8 +43,9 @@ PointInterpolator::PointInterpolator(std::span<const SurfacePoint> points,
       positions_(positionsOf(points)),
       nearest_(positions_) {}
 
-Rgb PointInterpolator::fit(const Vec3& place, std::span<const std::uint32_t> near,
-                           ExitanceSlope* slope) const {
+PointInterpolator::Fit PointInterpolator::fit(const Vec3& place,
+                                              std::span<const std::uint32_t> near,
+                                              ExitanceSlope* slope) const {
     const Vec3 normal = decodeUnitVector(points_[near.front()].normal);
     const Frame frame(normal);
     double area = 0;
@@ -43,7 +55,7 @@ Rgb PointInterpolator::fit(const Vec3& place, std::span<const std::uint32_t> nea
     DMat3 moments(0.0);
     DRgb ones{0}, us{0}, vs{0};
     DRgb allOnes{0}, allUs{0}, allVs{0};  // of the exitance
-    DRgb depths{0};
+    DRgb collided{0};
     Rgb lo = values_[near.front()].correction, hi = lo;
     for (const std::uint32_t i : near) {
         const float facing = glm::dot(normal, decodeUnitVector(points_[i].normal));
@@ -54,20 +66,21 @@ Rgb PointInterpolator::fit(const Vec3& place, std::span<const std::uint32_t> nea
         const Vec3 local = frame.toLocal(d);
         const DVec3 basis(1.0, local.x, local.y);
         moments += w * glm::outerProduct(basis, basis);
-        const DRgb value(values_[i].correction), all(values_[i].exitance);
+        const DRgb value(values_[i].correction), all(values_[i].thickExitance);
         ones += w * value;
         us += w * basis.y * value;
         vs += w * basis.z * value;
         allOnes += w * all;
         allUs += w * basis.y * all;
         allVs += w * basis.z * all;
-        depths += w * DRgb(values_[i].depth);
+        collided += w * DRgb(values_[i].collided);
         lo = glm::min(lo, values_[i].correction);
         hi = glm::max(hi, values_[i].correction);
     }
     const double total = moments[0][0];
-    if (!(total > 0)) return values_[near.front()].correction;
+    if (!(total > 0)) return {values_[near.front()].correction, values_[near.front()].collided};
     Rgb value(ones / total);
+    const Rgb share(collided / total);
     if (glm::determinant(moments) > kFlat * total * total * total * spread * spread) {
         // Value at the place itself and slopes along the frame: rows of the inverse, which is
         // symmetric.
@@ -77,7 +90,7 @@ Rgb PointInterpolator::fit(const Vec3& place, std::span<const std::uint32_t> nea
         };
         value = solved(0, ones, us, vs);
         if (slope != nullptr) {
-            const Rgb reach = leanMm_ * Rgb(depths / total);
+            const Rgb reach = leanMm_ * meanDepth(share);
             const Rgb u = reach * solved(1, allOnes, allUs, allVs),
                       v = reach * solved(2, allOnes, allUs, allVs);
             const Vec3 alongU = frame.toWorld({1, 0, 0}), alongV = frame.toWorld({0, 1, 0});
@@ -86,7 +99,7 @@ Rgb PointInterpolator::fit(const Vec3& place, std::span<const std::uint32_t> nea
         }
     }
     const Rgb margin = kOvershoot * (hi - lo);
-    return glm::clamp(value, lo - margin, hi + margin);
+    return {glm::clamp(value, lo - margin, hi + margin), share};
 }
 
 void PointInterpolator::addTo(std::span<const Vec3> places, std::span<Rgb> out,
@@ -98,9 +111,12 @@ void PointInterpolator::addTo(std::span<const Vec3> places, std::span<Rgb> out,
             places.subspan(begin, std::min(NearestPoints::kBatch, places.size() - begin));
         near.resize(batch.size() * count);
         nearest_.query(batch, count, near);
-        for (std::size_t i = 0; i < batch.size(); ++i)
-            out[begin + i] += fit(batch[i], std::span(near).subspan(i * count, count),
-                                  slopes.empty() ? nullptr : &slopes[begin + i]);
+        for (std::size_t i = 0; i < batch.size(); ++i) {
+            const Fit here = fit(batch[i], std::span(near).subspan(i * count, count),
+                                 slopes.empty() ? nullptr : &slopes[begin + i]);
+            Rgb& value = out[begin + i];
+            value = (value + here.correction) / here.collided;
+        }
     }
 }
 

@@ -24,13 +24,17 @@ public:
     /// `leanMm`: mfp / eta by channel.
     PointInterpolator(std::span<const SurfacePoint> points, std::span<const SolvedExitance> values,
                       const Rgb& leanMm);
-    /// Adds to `out[i]` the correction at places[i] (mm, on the surface) and says how light leans
-    /// there, unless `slopes` is empty. In the calling thread.
+    /// Adds to `out[i]` the correction at places[i] (mm, on the surface), makes of the exitance
+    /// that comes to what it would be along lines of sight that end within, and says how light
+    /// leans there, unless `slopes` is empty. In the calling thread.
     void addTo(std::span<const Vec3> places, std::span<Rgb> out,
                std::span<ExitanceSlope> slopes = {}) const;
 
 private:
-    Rgb fit(const Vec3& place, std::span<const std::uint32_t> near, ExitanceSlope* slope) const;
+    struct Fit {
+        Rgb correction{0.0f}, collided{1.0f};
+    };
+    Fit fit(const Vec3& place, std::span<const std::uint32_t> near, ExitanceSlope* slope) const;
 
     std::span<const SurfacePoint> points_;
     std::span<const SolvedExitance> values_;

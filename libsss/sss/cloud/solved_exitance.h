@@ -6,12 +6,12 @@ namespace sss {
 /// What diffusion on a body's own shape says at one of its points, W m^-2.
 struct SolvedExitance {
     Rgb correction{0.0f};  ///< to what the profile gives
-    /// All that has scattered, once and more often: how it changes along the surface says which way
-    /// light leans as it leaves.
-    Rgb exitance{0.0f};
-    /// From how deep on the mean the light comes that leaves, in mean free paths: 1, or what the
-    /// body is thick enough for.
-    Rgb depth{1.0f};
+    /// All that has scattered, once and more often, over `collided`: how it changes along the
+    /// surface says which way light leans as it leaves.
+    Rgb thickExitance{0.0f};
+    /// Of lines of sight into the body, the share that ends within, on the mean over directions;
+    /// 1 where the body is thick, or where nobody looks through it.
+    Rgb collided{1.0f};
 };
 
 /// How far light leans that leaves: what its radiance gains, in units of the Lambertian radiance of

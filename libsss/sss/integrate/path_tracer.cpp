@@ -2,7 +2,6 @@
 
 #include "sss/image/filter.h"
 #include "sss/integrate/arriving_light.h"
-#include "sss/integrate/look_through.h"
 #include "sss/integrate/single_scatter.h"
 
 #include <algorithm>
@@ -109,13 +108,18 @@ void PathTracer::putInFront(const Ray& ray, float distance, Sampler& sampler, Fi
 }
 
 Rgb PathTracer::diffusion(const SurfaceHit& hit, const Bsdf& bsdf, const Vec3& wo, Sampler& sampler,
-                          PathCounts& counts) const {
+                          PathCounts& counts, std::optional<LookThrough>* through) const {
     if (hit.body < 0 || !exitance_) return Rgb(0);
     const BodyOptics& optics = *optics_[static_cast<std::size_t>(hit.body)];
     if (!optics.material.multipleScattering) return Rgb(0);
     ++counts.diffusionLookups;
-    return exitance_->exitance(hit, wo, sampler, counts) *
-           optics.radiancePerExitance(bsdf.cosOutgoing());
+    const Rgb radiance = exitance_->exitance(hit, wo, sampler, counts) *
+                         optics.radiancePerExitance(bsdf.cosOutgoing());
+    if (!optics.seesThrough) return radiance;
+    Sampler side = sampler.branch();
+    const std::optional<LookThrough> way = lookThrough(world_, optics, hit, wo, side, counts.rays);
+    if (through) *through = way;
+    return way ? radiance * (Rgb(1) - way->straight) : radiance;
 }
 
 Rgb PathTracer::singleScatteringAt(const SurfaceHit& hit, const Vec3& wo, const Vec3& normal,
@@ -138,14 +142,10 @@ Rgb PathTracer::singleScatteringAt(const SurfaceHit& hit, const Vec3& wo, const 
     return radiance;
 }
 
-Rgb PathTracer::behind(const SurfaceHit& hit, const Vec3& wo, Sampler& sampler,
-                       PathCounts& counts) const {
+Rgb PathTracer::behind(const LookThrough& through, Sampler& sampler, PathCounts& counts) const {
     Sampler side = sampler.branch();
-    const auto seen = lookThrough(world_, *optics_[static_cast<std::size_t>(hit.body)], hit, wo,
-                                  side, counts.rays);
-    if (!seen) return Rgb(0);
     const int bounces = std::max(1, world_.scene().quality.bounces);
-    return seen->weight * incoming(seen->beyond, {}, bounces, side, counts);
+    return through.weight * incoming(through.beyond, {}, bounces, side, counts);
 }
 
 bool PathTracer::scatter(const SurfaceHit& hit, const Bsdf& bsdf, Sampler& sampler, Ray& ray,

@@ -5,10 +5,12 @@
 #include "sss/integrate/bsdf.h"
 #include "sss/integrate/exitance_source.h"
 #include "sss/integrate/light_sampling.h"
+#include "sss/integrate/look_through.h"
 #include "sss/integrate/volume_passage.h"
 #include "sss/world/world.h"
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -74,10 +76,12 @@ public:
                     PathCounts& counts) const;
 
 private:
+    /// Radiance by multiple scattering; `through`, if asked for, is the way that the line of sight
+    /// takes through the body, where it does.
     Rgb diffusion(const SurfaceHit& hit, const Bsdf& bsdf, const Vec3& wo, Sampler& sampler,
-                  PathCounts& counts) const;
-    /// What is seen through a body.
-    Rgb behind(const SurfaceHit& hit, const Vec3& wo, Sampler& sampler, PathCounts& counts) const;
+                  PathCounts& counts, std::optional<LookThrough>* through = nullptr) const;
+    /// What is seen at the end of that way.
+    Rgb behind(const LookThrough& through, Sampler& sampler, PathCounts& counts) const;
     /// What arrives along a ray, through surfaces; `first` if what it hits is known.
     Rgb followed(Ray ray, ScatterOrigin origin, int bounces, Sampler& sampler, PathCounts& counts,
                  const Hit* first = nullptr) const;

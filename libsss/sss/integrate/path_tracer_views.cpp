@@ -92,10 +92,11 @@ void PathTracer::findSurfaces(Views& views, PathCounts& counts) const {
         seen.surface = radianceOfEmitter(world_, ray, hit, {});
         if (hit.body < 0 || !exitance_) continue;
         const BodyOptics& optics = *optics_[static_cast<std::size_t>(hit.body)];
-        seen.diffusion = diffusion(hit, surface.bsdf, -ray.direction, views.samplers[i], counts) *
-                         optics.multipleScale;
-        if (optics.seesThrough)
-            seen.surface += behind(hit, -ray.direction, views.samplers[i], counts);
+        std::optional<LookThrough> through;
+        seen.diffusion =
+            diffusion(hit, surface.bsdf, -ray.direction, views.samplers[i], counts, &through) *
+            optics.multipleScale;
+        if (through) seen.surface += behind(*through, views.samplers[i], counts);
     }
 }
 

@@ -239,6 +239,11 @@ std::vector<SolvedExitance> shapeSolution(const World& world, int body,
     std::vector<SolvedExitance> solved = std::move(shape.solved);
     report.unscatteredShare = maxComponent(shape.unscattered);
     own.lookThroughIf(report.unscatteredShare, world.scene().quality.tolerance);
+    if (!own.seesThrough)
+        for (SolvedExitance& point : solved) {
+            point.thickExitance *= point.collided;
+            point.collided = Rgb(1);
+        }
     describeSolution(shape, own.material.medium, cloud.spacingMm, report.name, reporter);
     report.shape = std::move(shape);
     return solved;

@@ -14,7 +14,7 @@ namespace {
 // Raised when the algorithms of pass 1 change what they make of the same input.
 constexpr std::uint64_t kPassOneVersion = 4;
 constexpr std::uint64_t kExitanceVersion = 4;  // the same of the diffusion sum and its sites
-constexpr std::uint64_t kShapeVersion = 3;     // ... and of diffusion on the shape
+constexpr std::uint64_t kShapeVersion = 4;     // ... and of diffusion on the shape
 
 void add(Hasher& h, const DVec3& v) { h.add(v.x).add(v.y).add(v.z); }
 void add(Hasher& h, const Rgb& v) { add(h, DVec3(v)); }

@@ -1,6 +1,7 @@
 #include "sss/integrate/shape_exitance.h"
 
 #include "sss/base/parallel.h"
+#include "sss/base/stopwatch.h"
 #include "sss/integrate/body_field.h"
 #include "sss/integrate/returning_light.h"
 #include "sss/medium/single_scatter.h"
@@ -36,31 +37,6 @@ std::vector<Rgb> profileExitance(const BodyField& field, const BodyCloud::View& 
     });
     for (const SumCounts& part : parts) counts.add(part);
     return exitance;
-}
-
-// SolvedExitance::depth where the body is as thick as this along its normal, in mean free paths:
-// mean of the exponential up to there.
-double meanDepth(double thickness) {
-    return thickness > 1e-3 ? 1 - thickness / std::expm1(thickness) : 0.5 * thickness;
-}
-
-// By point, and for what never ends at 1.
-void measureDepths(const World& world, int body, std::span<const SurfacePoint> points,
-                   const DiffusionConstants& medium, std::span<SolvedExitance> solved) {
-    parallelFor(points.size(), kReceiversPerSum, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) {
-            const SurfaceHit start =
-                world.surfaceOf(body, points[i].face, points[i].barycentrics());
-            Ray ray;
-            ray.origin = world.leave(start, -start.geometricNormal);
-            ray.direction = -start.geometricNormal;
-            Hit found;
-            if (!world.rays().intersect(ray, found, bodyMask(body))) continue;
-            for (int c = 0; c < 3; ++c)
-                solved[i].depth[c] =
-                    static_cast<float>(meanDepth(double{found.t} * medium.extinction[c]));
-        }
-    });
 }
 
 // Exitance by one scattering of diffuse light, of 1 that enters.
@@ -121,14 +97,22 @@ ShapeExitance solveShape(const World& world, int bodyIndex, const BodyOptics& op
     const BodyField field(body, optics, cloud, tolerance);
     const std::vector<Rgb> flat = profileExitance(field, cloud, tolerance, result.profile);
     BeamSources light = placeBeamSources(world, bodyIndex, cloud, beams, medium);
+    const Stopwatch watch;
+    const std::vector<Rgb> collided =
+        collisionProbabilities(world, bodyIndex, cloud.cloud.points, medium, result.collisions);
+    result.collisionSeconds = watch.seconds();
     const ShapeSolver solver(cloud.cloud, cloud.nodes, medium, cloud.spacingMm,
-                             body.mesh.bounds().diagonal() * 1.01, tolerance);
+                             body.mesh.bounds().diagonal() * 1.01, tolerance, collided);
     std::vector<DRgb> fluence(flat.size());
     for (std::size_t i = 0; i < flat.size(); ++i) fluence[i] = DRgb(flat[i]) * medium.impedance;
 
     const DRgb scale = transferScale(medium, optics.material.medium);
-    const auto exitanceAt = [&](std::size_t i, int c) {
+    // If all of it left as along lines of sight that end within, and what leaves.
+    const auto thickExitanceAt = [&](std::size_t i, int c) {
         return medium.scatters[c] ? scale[c] * fluence[i][c] / medium.impedance[c] : 0.0;
+    };
+    const auto exitanceAt = [&](std::size_t i, int c) {
+        return double{collided[i][c]} * thickExitanceAt(i, c);
     };
     const ReturningLight back(world, bodyIndex, optics, cloud);
     const int solutions = back.isNone() ? 1 : 2;
@@ -165,17 +149,17 @@ ShapeExitance solveShape(const World& world, int bodyIndex, const BodyOptics& op
     }
     shareOut(light, all, single, tolerance, result);
     result.solved.resize(flat.size());
-    measureDepths(world, bodyIndex, cloud.cloud.points, medium, result.solved);
     for (std::size_t i = 0; i < flat.size(); ++i)
         for (int c = 0; c < 3; ++c) {
             SolvedExitance& solved = result.solved[i];
-            solved.exitance[c] = flat[i][c];
             const auto channel = static_cast<std::size_t>(c);
+            solved.collided[c] = collided[i][c];
+            solved.thickExitance[c] = flat[i][c] / collided[i][c];
             if (result.isTooCoarse[channel] || result.isUnsound[channel]) continue;
             const double scatteredOnce = once.empty() ? 0.0 : double{once[i][c]};
             solved.correction[c] =
                 static_cast<float>(exitanceAt(i, c) - scatteredOnce - double{flat[i][c]});
-            solved.exitance[c] = static_cast<float>(exitanceAt(i, c));
+            solved.thickExitance[c] = static_cast<float>(thickExitanceAt(i, c));
         }
     return result;
 }

@@ -3,6 +3,7 @@
 #include "sss/cloud/solved_exitance.h"
 #include "sss/integrate/beam_sources.h"
 #include "sss/integrate/body_optics.h"
+#include "sss/integrate/collision_probability.h"
 #include "sss/shape/shape_solver.h"
 
 #include <array>
@@ -20,8 +21,9 @@ struct ShapeExitance {
     std::array<bool, 3> isTooCoarse{}, isUnsound{};
     /// Of what entered: how much more leaves than scattered, at most; 0 where it is less.
     double gain = 0;
-    /// Of the clock on the wall: what scatters once, before all else.
-    double singleSeconds = 0;
+    CollisionCounts collisions;  ///< what it took to know where the body is thin
+    /// Of the clock on the wall: what scatters once, before all else, and that.
+    double singleSeconds = 0, collisionSeconds = 0;
     /// Shares of the light that entered: multiple and single scattering that leaves, straight
     /// through, and absorbed (what is left).
     DRgb leaves{0}, single{0}, unscattered{0}, absorbed{0};

@@ -92,7 +92,8 @@ ChargeTree::ChargeTree(const CloudView& cloud, std::span<const OctreeNode> nodes
       shapes_(nodes.size()),
       charges_(nodes.size()),
       weights_(nodes.size(), Rgb(0)),
-      areaFluence_(cloud.size(), Rgb(0)) {
+      areaFluence_(cloud.size(), Rgb(0)),
+      pointCharges_(cloud.size(), Rgb(0)) {
     normals_.reserve(cloud.size());
     for (const SurfacePoint& p : cloud.points) normals_.push_back(decodeUnitVector(p.normal));
     parallelFor(nodes.size(), 64, [&](std::size_t begin, std::size_t end) {
@@ -101,14 +102,14 @@ ChargeTree::ChargeTree(const CloudView& cloud, std::span<const OctreeNode> nodes
     });
 }
 
-void ChargeTree::fromPoints(std::size_t n, const DRgb& perLength) {
+void ChargeTree::fromPoints(std::size_t n) {
     const OctreeNode& node = nodes_[n];
     Sums sums;
     DRgb weight{0};
     for (std::uint32_t i = node.first; i < node.first + node.size(); ++i) {
         const DRgb m(areaFluence_[i]);
         const DVec3 normal(normals_[i]);
-        sums.add(m * perLength, {m * normal.x, m * normal.y, m * normal.z}, {},
+        sums.add(DRgb(pointCharges_[i]), {m * normal.x, m * normal.y, m * normal.z}, {},
                  DVec3(cloud_.points[i].position) - DVec3(shapes_[n].centre));
         weight += glm::abs(m);
     }
@@ -133,12 +134,15 @@ void ChargeTree::fromChildren(std::size_t n) {
     weights_[n] = Rgb(weight);
 }
 
-void ChargeTree::setFluence(std::span<const DRgb> fluence, const DRgb& perLength) {
-    for (std::size_t i = 0; i < cloud_.size(); ++i)
-        areaFluence_[i] = Rgb(fluence[i] * static_cast<double>(cloud_.points[i].areaMm2));
+void ChargeTree::setFluence(std::span<const DRgb> fluence, std::span<const DRgb> perLength) {
+    for (std::size_t i = 0; i < cloud_.size(); ++i) {
+        const DRgb areaFluence = fluence[i] * static_cast<double>(cloud_.points[i].areaMm2);
+        areaFluence_[i] = Rgb(areaFluence);
+        pointCharges_[i] = Rgb(areaFluence * perLength[i]);
+    }
     parallelFor(nodes_.size(), 256, [&](std::size_t begin, std::size_t end) {
         for (std::size_t n = begin; n < end; ++n)
-            if (nodes_[n].isLeaf()) fromPoints(n, perLength);
+            if (nodes_[n].isLeaf()) fromPoints(n);
     });
     // Children stand behind their parents.
     for (std::size_t n = nodes_.size(); n-- > 0;)

@@ -37,8 +37,8 @@ public:
     ChargeTree(const CloudView& cloud, std::span<const OctreeNode> nodes);
 
     /// Charges A phi / b and dipoles A phi n for a fluence phi, W m^-2, at every point. `perLength`
-    /// is 1 / b, mm^-1.
-    void setFluence(std::span<const DRgb> fluence, const DRgb& perLength);
+    /// is 1 / b by point, mm^-1.
+    void setFluence(std::span<const DRgb> fluence, std::span<const DRgb> perLength);
 
     std::span<const OctreeNode> nodes() const { return nodes_; }
     std::span<const PointRange> ranges() const { return ranges_; }
@@ -48,11 +48,13 @@ public:
     std::span<const Rgb> weights() const { return weights_; }
     /// A phi of a point.
     const Rgb& areaFluence(std::size_t point) const { return areaFluence_[point]; }
+    /// A phi / b of a point.
+    const Rgb& charge(std::size_t point) const { return pointCharges_[point]; }
     const Vec3& normal(std::size_t point) const { return normals_[point]; }
     const CloudView& cloud() const { return cloud_; }
 
 private:
-    void fromPoints(std::size_t node, const DRgb& perLength);
+    void fromPoints(std::size_t node);
     void fromChildren(std::size_t node);
 
     CloudView cloud_;
@@ -61,7 +63,7 @@ private:
     std::vector<Vec3> normals_;
     std::vector<NodeShape> shapes_;
     std::vector<ChargeNode> charges_;
-    std::vector<Rgb> weights_, areaFluence_;
+    std::vector<Rgb> weights_, areaFluence_, pointCharges_;
 };
 
 }  // namespace sss

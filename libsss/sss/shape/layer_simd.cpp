@@ -13,8 +13,8 @@ namespace {
 
 #if HWY_TARGET == HWY_SCALAR
 void layersAny(const ChargeTree& tree, const KernelTable& green, const LayerList& list,
-               const Rgb& perLength, std::span<const Vec3> receivers, std::span<DRgb> sums) {
-    accumulateLayersScalar(tree, green, list, perLength, receivers, sums);
+               std::span<const Vec3> receivers, std::span<DRgb> sums) {
+    accumulateLayersScalar(tree, green, list, receivers, sums);
 }
 void expandAny(const ChargeTree& tree, const KernelTable& green, const LayerList& list,
                LocalExpansion& expansion) {
@@ -77,27 +77,25 @@ HWY_ATTR void addNode(const ChargeNode& node, const Vec3& centre, const KernelTa
 }
 
 HWY_ATTR void layersAny(const ChargeTree& tree, const KernelTable& green, const LayerList& list,
-                        const Rgb& perLength, std::span<const Vec3> receivers,
-                        std::span<DRgb> sums) {
+                        std::span<const Vec3> receivers, std::span<DRgb> sums) {
     const Tag d;
     Totals totals;
     for (const std::uint32_t n : list.nodes)
         addNode(tree.charges()[n], tree.shapes()[n].centre, green, receivers, totals);
-    alignas(16) const float perB[4] = {perLength.x, perLength.y, perLength.z, 0.0f};
-    const auto b = hn::Load(d, perB);
     for (const std::uint32_t i : list.points) {
         const Vec3& from = tree.cloud().points[i].position;
         const Vec3& normal = tree.normal(i);
-        const Rgb& flux = tree.areaFluence(i);
-        alignas(16) const float lanes[4] = {flux.x, flux.y, flux.z, 0.0f};
-        const auto weight = hn::Load(d, lanes);
+        const Rgb &flux = tree.areaFluence(i), &charge = tree.charge(i);
+        alignas(16) const float fluxes[4] = {flux.x, flux.y, flux.z, 0.0f};
+        alignas(16) const float charges[4] = {charge.x, charge.y, charge.z, 0.0f};
+        const auto weight = hn::Load(d, fluxes), own = hn::Load(d, charges);
         for (std::size_t r = 0; r < receivers.size(); ++r) {
             const Vec3 v = from - receivers[r];
             const KernelTable::Place place = green.placeOf(glm::dot(v, v));
             const Radial g = radialAt(place);
             const auto across = hn::Set(d, 2.0f * place.scale * glm::dot(normal, v));
-            const auto kernel = hn::MulAdd(across, g.first, hn::Mul(g.f, b));
-            hn::Store(hn::MulAdd(weight, kernel, hn::Load(d, totals.lanes[r])), d, totals.lanes[r]);
+            const auto sum = hn::MulAdd(own, g.f, hn::Load(d, totals.lanes[r]));
+            hn::Store(hn::MulAdd(hn::Mul(weight, across), g.first, sum), d, totals.lanes[r]);
         }
     }
     for (std::size_t r = 0; r < receivers.size(); ++r)
@@ -181,8 +179,8 @@ HWY_EXPORT(layersAny);
 HWY_EXPORT(expandAny);
 
 void accumulateLayers(const ChargeTree& tree, const KernelTable& green, const LayerList& list,
-                      const Rgb& perLength, std::span<const Vec3> receivers, std::span<DRgb> sums) {
-    HWY_DYNAMIC_DISPATCH(layersAny)(tree, green, list, perLength, receivers, sums);
+                      std::span<const Vec3> receivers, std::span<DRgb> sums) {
+    HWY_DYNAMIC_DISPATCH(layersAny)(tree, green, list, receivers, sums);
 }
 
 void expandLayers(const ChargeTree& tree, const KernelTable& green, const LayerList& list,

@@ -76,8 +76,7 @@ void expandLayersScalar(const ChargeTree& tree, const KernelTable& green, const 
 }
 
 void accumulateLayersScalar(const ChargeTree& tree, const KernelTable& green, const LayerList& list,
-                            const Rgb& perLength, std::span<const Vec3> receivers,
-                            std::span<DRgb> sums) {
+                            std::span<const Vec3> receivers, std::span<DRgb> sums) {
     for (std::size_t r = 0; r < receivers.size(); ++r) {
         for (const std::uint32_t n : list.nodes) {
             const Vec3 d = tree.shapes()[n].centre - receivers[r];
@@ -86,8 +85,8 @@ void accumulateLayersScalar(const ChargeTree& tree, const KernelTable& green, co
         for (const std::uint32_t i : list.points) {
             const Vec3 d = tree.cloud().points[i].position - receivers[r];
             const Radial g = radialAt(green, glm::dot(d, d));
-            sums[r] += DRgb(tree.areaFluence(i) *
-                            (g.f * perLength + 2.0f * glm::dot(tree.normal(i), d) * g.first));
+            sums[r] += DRgb(tree.charge(i) * g.f +
+                            tree.areaFluence(i) * (2.0f * glm::dot(tree.normal(i), d) * g.first));
         }
     }
 }
@@ -206,8 +205,7 @@ void LayerSum::finish(std::size_t cell, const LocalExpansion& far, Walk& walk) c
             walk.places.push_back(tree_.cloud().points[p].position);
             walk.out[p] = far.at(walk.places.back());
         }
-        accumulateLayers(tree_, green_, walk.list, perLength_, walk.places,
-                         walk.out.subspan(i, last - i));
+        accumulateLayers(tree_, green_, walk.list, walk.places, walk.out.subspan(i, last - i));
         i = last;
     }
     walk.counts.nodeInteractions += walk.list.nodes.size() * range.size();
@@ -235,8 +233,7 @@ DRgb LayerSum::bruteForce(const Vec3& receiver) const {
     all.points.resize(tree_.cloud().size());
     std::iota(all.points.begin(), all.points.end(), 0u);
     DRgb sum{0};
-    accumulateLayersScalar(tree_, green_, all, perLength_, std::span(&receiver, 1),
-                           std::span(&sum, 1));
+    accumulateLayersScalar(tree_, green_, all, std::span(&receiver, 1), std::span(&sum, 1));
     return sum;
 }
 

@@ -42,7 +42,7 @@ struct LayerList {
 /// Const and thread-safe; the answer depends on neither threads nor order.
 class LayerSum {
 public:
-    /// Both must outlive the sum. `perLength`: 1 / b, mm^-1.
+    /// Both must outlive the sum. `perLength`: 1 / b, mm^-1, the largest of any point.
     LayerSum(const ChargeTree& tree, const KernelTable& green, const DRgb& perLength);
 
     /// `out[i]`, W m^-2, at point i, to be wrong by `allowed[i]` at most; 0 sums over all points.
@@ -70,7 +70,7 @@ inline constexpr std::size_t kMostLayerReceivers = 24;
 /// Adds a list's nodes and points at up to kMostLayerReceivers places; chosen at run
 /// time for the processor.
 void accumulateLayers(const ChargeTree& tree, const KernelTable& green, const LayerList& list,
-                      const Rgb& perLength, std::span<const Vec3> receivers, std::span<DRgb> sums);
+                      std::span<const Vec3> receivers, std::span<DRgb> sums);
 /// Adds what a list's locals bring around the centre of an expansion.
 void expandLayers(const ChargeTree& tree, const KernelTable& green, const LayerList& list,
                   LocalExpansion& expansion);
@@ -78,7 +78,6 @@ void expandLayers(const ChargeTree& tree, const KernelTable& green, const LayerL
 void expandLayersScalar(const ChargeTree& tree, const KernelTable& green, const LayerList& list,
                         LocalExpansion& expansion);
 void accumulateLayersScalar(const ChargeTree& tree, const KernelTable& green, const LayerList& list,
-                            const Rgb& perLength, std::span<const Vec3> receivers,
-                            std::span<DRgb> sums);
+                            std::span<const Vec3> receivers, std::span<DRgb> sums);
 
 }  // namespace sss

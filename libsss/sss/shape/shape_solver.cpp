@@ -45,13 +45,14 @@ void ShapeReport::add(const ShapeReport& earlier) {
 
 ShapeSolver::ShapeSolver(const CloudView& cloud, std::span<const OctreeNode> nodes,
                          const DiffusionConstants& medium, double spacingMm, double reachMm,
-                         double tolerance)
+                         double tolerance, std::span<const Rgb> collided)
     : cloud_(cloud),
       nodes_(nodes),
       medium_(medium),
       spacingMm_(spacingMm),
       reachMm_(reachMm),
-      tolerance_(tolerance) {
+      tolerance_(tolerance),
+      collided_(collided) {
     measureFill();
 }
 
@@ -59,7 +60,7 @@ void ShapeSolver::measureFill() {
     const KernelTable table = greenTable(DRgb(0), reachMm_, spacingMm_ / std::sqrt(kPi));
     ChargeTree tree(cloud_, nodes_);
     const std::vector<DRgb> one(cloud_.size(), DRgb(1));
-    tree.setFluence(one, DRgb(0));
+    tree.setFluence(one, std::vector<DRgb>(cloud_.size(), DRgb(0)));
     std::vector<DRgb> angle(cloud_.size());
     const std::vector<Rgb> allowed(cloud_.size(), Rgb(static_cast<float>(kFillShare * tolerance_)));
     LayerSum(tree, table, DRgb(0)).atPoints(allowed, angle, fillCounts_);
@@ -144,12 +145,14 @@ ShapeReport ShapeSolver::solve(std::span<const VolumeSource> sources, std::span<
         fluence[i] /= scale[i];
     }
     const DRgb perLength = 1.0 / medium_.boundaryMm;
+    std::vector<DRgb> perLengthHere(n, perLength);
+    for (std::size_t i = 0; i < collided_.size(); ++i) perLengthHere[i] *= DRgb(collided_[i]);
     ChargeTree tree(cloud_, nodes_);
     const LayerSum layers(tree, table, perLength);
     std::vector<DRgb> own(n);
     for (std::size_t i = 0; i < n; ++i) {
         const double area = cloud_.points[i].areaMm2, radius = std::sqrt(area / kPi);
-        own[i] = (0.5 * radius - area * DRgb(table.evaluate(0.0f))) * perLength;
+        own[i] = (0.5 * radius - area * DRgb(table.evaluate(0.0f))) * perLengthHere[i];
     }
     std::vector<Rgb> allowed(n);
     std::vector<DRgb> absolute(n);
@@ -163,7 +166,7 @@ ShapeReport ShapeSolver::solve(std::span<const VolumeSource> sources, std::span<
         const DRgb care = glm::min(tolerance * kLayerShare / glm::max(weight, DRgb(1e-6)),
                                    DRgb(std::max(kCrudest, tolerance * kLayerShare)));
         for (std::size_t i = 0; i < n; ++i) allowed[i] = Rgb(size * scale[i] * care);
-        tree.setFluence(absolute, perLength);
+        tree.setFluence(absolute, perLengthHere);
         layers.atPoints(allowed, out, report.layers);
         if (onSum) onSum();
         for (std::size_t i = 0; i < n; ++i)

@@ -27,17 +27,20 @@ struct ShapeReport {
 /// The diffusion equation on a body's own shape, by boundary elements over its point cloud: one
 /// unknown, the fluence, at every point (README.md of this folder derives it).
 ///
-///   phi/2 + integral over the boundary of [G / b + dG/dn] phi = phi_source
+///   phi/2 + integral over the boundary of [G p / b + dG/dn] phi = phi_source
 ///
+/// where p is 1, or less where the body is thin (collision_probability.h): phi leaves as
+/// M = p phi / (2 A),
 /// with Gauss' identity, integral of dG0/dn = -1/2, in place of the 1/2: the strong part of dG/dn
 /// cancels for whatever angle the surface makes at a point.
 class ShapeSolver {
 public:
     /// `cloud` (points, octree) of one closed body must outlive the solver; `spacingMm` is theirs,
     /// `reachMm` the largest distance within the body. `tolerance`: relative to the local fluence.
+    /// `collided`: p by point, in (0, 1], which must outlive the solver; none if all are 1.
     ShapeSolver(const CloudView& cloud, std::span<const OctreeNode> nodes,
                 const DiffusionConstants& medium, double spacingMm, double reachMm,
-                double tolerance);
+                double tolerance, std::span<const Rgb> collided = {});
 
     /// Fluence at the points, W m^-2, from the guess that it holds: the right order of magnitude
     /// everywhere sets what may be missed where, and it is where the iteration starts. `coarser`:
@@ -63,6 +66,7 @@ private:
     std::span<const OctreeNode> nodes_;
     DiffusionConstants medium_;
     double spacingMm_, reachMm_, tolerance_;
+    std::span<const Rgb> collided_;
     std::vector<float> fill_;
     LayerCounts fillCounts_;
 };

@@ -14,7 +14,7 @@ std::vector<SolvedExitance> valuesAt(std::span<const SurfacePoint> points,
                                      const std::function<Rgb(const Vec3&)>& f) {
     std::vector<SolvedExitance> values;
     for (const SurfacePoint& p : points)
-        values.push_back({.correction = f(p.position), .exitance = 2.0f * f(p.position)});
+        values.push_back({.correction = f(p.position), .thickExitance = 2.0f * f(p.position)});
     return values;
 }
 
@@ -97,7 +97,7 @@ TEST(PointInterpolator, SidesOfAThinPlateDoNotMix) {
 TEST(PointInterpolator, OnePointIsThereEverywhere) {
     const SurfacePoint point{
         .position = Vec3(1), .areaMm2 = 2, .normal = encodeUnitVector({0, 0, 1})};
-    const SolvedExitance value{.correction = Rgb(3, 2, 1), .exitance = Rgb(5)};
+    const SolvedExitance value{.correction = Rgb(3, 2, 1), .thickExitance = Rgb(5)};
     const PointInterpolator between(std::span(&point, 1), std::span(&value, 1), Rgb(1));
     const Vec3 place(1.1f, 1, 1);
     EXPECT_EQ(interpolated(between, std::span(&place, 1)).front(), value.correction);

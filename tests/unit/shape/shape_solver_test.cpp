@@ -30,7 +30,7 @@ TEST(ShapeSolver, ConservesEnergy) {
         b(medium.screening.z, 3 * radius);
     const KernelTable green({&r, &g, &b}, 3 * radius, 0.5 * cell);
     ChargeTree tree(ball.cloud.view(), ball.cloud.nodes);
-    tree.setFluence(ball.fluence, 1.0 / medium.boundaryMm);
+    tree.setFluence(ball.fluence, std::vector<DRgb>(ball.fluence.size(), 1.0 / medium.boundaryMm));
     const LayerSum layers(tree, green, 1.0 / medium.boundaryMm);
     const SourceCloud sources(ball.sources);
     const DiffusionSum direct(sources.view(), sources.nodes(), green);
@@ -82,6 +82,24 @@ TEST(ShapeSolver, KeepsItsTolerance) {
         }
         EXPECT_LT(std::sqrt(squares / static_cast<double>(count)), 0.02) << name;
     }
+}
+
+// Less leaves where the body is thin: as by a longer extrapolation length.
+TEST(ShapeSolver, LessLeavesByALongerLength) {
+    const DiffusionConstants medium = constantsOf("skimmilk");
+    const double l = 1 / medium.extinction.z, radius = 3 * l;
+    DiffusionConstants longer = medium;
+    longer.boundaryMm /= DRgb(0.5, 0.7, 0.9);
+    const Solved expected(makeSphere(radius, 5), 0.8 * l, 2 * radius, longer, fromAbove);
+    const std::vector<Rgb> collided(expected.fluence.size(), Rgb(0.5f, 0.7f, 0.9f));
+    const ShapeSolver solver(expected.cloud.view(), expected.cloud.nodes, medium,
+                             expected.cloud.spacingMm, 2.02 * radius, 1e-3, collided);
+    std::vector<DRgb> fluence = expected.fluence;
+    for (DRgb& v : fluence) v *= 1.3;
+    solver.solve(expected.sources, fluence);
+    for (std::size_t i = 0; i < fluence.size(); ++i)
+        for (int c = 0; c < 3; ++c)
+            EXPECT_NEAR(fluence[i][c] / expected.fluence[i][c], 1, 0.01) << i << " " << c;
 }
 
 // Two sheets closer together than the points: a few times what scatters there, which is little.
