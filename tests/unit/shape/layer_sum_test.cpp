@@ -66,8 +66,8 @@ TEST(LayerSum, NothingAllowedIsTheSumOverAll) {
     const std::vector<DRgb> out = layers.atPoints(Rgb(0), counts);
     double most = 0;
     for (const DRgb& v : out) most = std::max(most, glm::length(v));
-    // As sums of so many terms in single precision round.
-    const double rounding = std::sqrt(static_cast<double>(out.size())) * 0x1p-24 * most;
+    // As sums of two terms a point in single precision round.
+    const double rounding = std::sqrt(2.0 * static_cast<double>(out.size())) * 0x1p-24 * most;
     for (std::size_t i = 0; i < out.size(); i += 31)
         EXPECT_LT(
             glm::length(out[i] - layers.sum().bruteForce(layers.cloud.samples.points[i].position)),
