@@ -2,7 +2,7 @@
 
 #include "sss/medium/energy.h"
 #include "sss/optics/fresnel.h"
-#include "sss/optics/fresnel_moments.h"
+#include "sss/shape/diffusion_constants.h"
 
 #include <algorithm>
 
@@ -24,6 +24,12 @@ double singleReach(const Medium& medium) {
 }
 
 }  // namespace
+
+FresnelMoments momentsFor(const TranslucentMaterial& material) {
+    return material.profileOptions.boundary == BoundaryModel::Exact
+               ? exactFresnelMoments(material.medium.eta)
+               : polynomialFresnelMoments(material.medium.eta);
+}
 
 BodyOptics::BodyOptics(const TranslucentMaterial& translucent, bool solvesShape)
     : material(translucent), onShape(solvesShape) {
@@ -55,6 +61,7 @@ BodyOptics::BodyOptics(const TranslucentMaterial& translucent, bool solvesShape)
         // Of the half-space, about: what it would be scaled by is what is left of it.
         indirectScale = 1.0f / glm::max(multipleScale, Rgb(1e-3f));
         multipleScale = Rgb(1);
+        fading = Rgb(diffusionConstants(translucent.medium, momentsFor(translucent)).fading);
     }
     singleReachMm = static_cast<float>(singleReach(translucent.medium));
     double lowestAlbedo = 1;

@@ -1,5 +1,6 @@
 #pragma once
 #include "sss/medium/profile.h"
+#include "sss/optics/fresnel_moments.h"
 #include "sss/world/world.h"
 
 #include <array>
@@ -7,6 +8,9 @@
 #include <optional>
 
 namespace sss {
+
+/// Those that the material's boundary model takes.
+FresnelMoments momentsFor(const TranslucentMaterial& material);
 
 /// What light transport needs to know of a body's material, computed once.
 struct BodyOptics {
@@ -27,6 +31,8 @@ struct BodyOptics {
     bool onShape = false;
     /// Whether enough light goes straight through to be looked for (shapeSolution()).
     bool seesThrough = false;
+    /// DiffusionConstants::fading, mm^-1, where diffusion is solved on the shape.
+    Rgb fading{0.0f};
     /// By which it is scaled where it is seen at second hand and nobody looks for single
     /// scattering.
     Rgb indirectScale{1.0f};

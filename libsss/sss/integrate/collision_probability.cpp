@@ -22,7 +22,8 @@ constexpr float kFaintDepth = 6.9f;  // of which it is the exponential
 constexpr int kMostLegs = 16;
 constexpr std::uint64_t kSeed = 0xc0111dedull;
 
-// Light that enters a body and goes straight on, reflected at the boundary.
+// Light that enters a body and goes straight on, reflected at the boundary, and fades
+// (DiffusionConstants::fading).
 class StraightLight {
 public:
     StraightLight(const World& world, int body, const DiffusionConstants& medium)
@@ -33,9 +34,9 @@ public:
         double least = std::numeric_limits<double>::infinity();
         for (int c = 0; c < 3; ++c) {
             if (!medium.scatters[static_cast<std::size_t>(c)]) continue;
-            extinction_[c] = static_cast<float>(medium.extinction[c]);
+            fading_[c] = static_cast<float>(medium.fading[c]);
             enters_[c] = 1;
-            least = std::min(least, medium.extinction[c]);
+            least = std::min(least, medium.fading[c]);
         }
         reachMm_ = static_cast<float>(kFaintDepth / least);
     }
@@ -73,7 +74,7 @@ private:
             Hit hit;
             ++rays_;
             if (!world_.rays().intersect(ray, hit, bodyMask(body_))) break;
-            left *= glm::exp(-extinction_ * hit.t);
+            left *= glm::exp(-fading_ * hit.t);
             if (maxComponent(left) < kFaint) break;
             const SurfaceHit exit = world_.surfaceAt(hit);
             const float cosine = glm::dot(ray.direction, exit.geometricNormal);
@@ -90,7 +91,7 @@ private:
     const World& world_;
     int body_;
     float eta_, reachMm_ = 0;
-    Rgb extinction_{0.0f}, enters_{0.0f};
+    Rgb fading_{0.0f}, enters_{0.0f};
     std::uint64_t rays_ = 0;
 };
 

@@ -30,7 +30,7 @@ std::optional<LookThrough> lookThrough(const World& world, const BodyOptics& opt
     const Rgb extinction = reducedExtinction(optics.material.medium);
     const float least = std::min({extinction.x, extinction.y, extinction.z});
     LookThrough seen;
-    seen.straight = Rgb(1);
+    Rgb straight(1), faded(1);
     Ray ray;
     ray.origin = world.leave(hit, -hit.geometricNormal);
     ray.direction = glm::normalize(refractedDirection(-wo, normal, cosine, inside, optics.eta));
@@ -39,7 +39,8 @@ std::optional<LookThrough> lookThrough(const World& world, const BodyOptics& opt
         Hit found;
         ++rays;
         if (!world.rays().intersect(ray, found, bodyMask(hit.body))) return std::nullopt;
-        seen.straight *= glm::exp(-extinction * found.t);
+        straight *= glm::exp(-extinction * found.t);
+        faded *= glm::exp(-optics.fading * found.t);
         const SurfaceHit exit = world.surfaceAt(found);
         if (glm::dot(ray.direction, exit.geometricNormal) <= 0) {
             // The outside of another of the body's shells: still inside.
@@ -51,7 +52,8 @@ std::optional<LookThrough> lookThrough(const World& world, const BodyOptics& opt
         ray.origin = world.leave(exit, event.side);
         ray.direction = event.direction;
         if (event.isInside) continue;
-        seen.weight = seen.straight * (1.0f - fresnelReflectance(cosine, optics.eta));
+        seen.weight = straight * (1.0f - fresnelReflectance(cosine, optics.eta));
+        seen.shown = Rgb(1) - faded;
         seen.beyond.origin = ray.origin;
         seen.beyond.direction = ray.direction;
         return seen;

@@ -13,9 +13,9 @@ namespace sss {
 struct LookThrough {
     Ray beyond;
     Rgb weight{0.0f};
-    /// The share of the line of sight inside that comes out again: `weight` without what the
-    /// surface reflects.
-    Rgb straight{0.0f};
+    /// Of what the line of sight would show of the body if it ended within, the share that it
+    /// shows (DiffusionConstants::fading).
+    Rgb shown{0.0f};
 };
 
 /// Follows the line of sight from `wo` through `hit`, refracted at the boundary, reflected inside

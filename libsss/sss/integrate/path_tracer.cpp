@@ -119,7 +119,7 @@ Rgb PathTracer::diffusion(const SurfaceHit& hit, const Bsdf& bsdf, const Vec3& w
     Sampler side = sampler.branch();
     const std::optional<LookThrough> way = lookThrough(world_, optics, hit, wo, side, counts.rays);
     if (through) *through = way;
-    return way ? radiance * (Rgb(1) - way->straight) : radiance;
+    return way ? radiance * way->shown : radiance;
 }
 
 Rgb PathTracer::singleScatteringAt(const SurfaceHit& hit, const Vec3& wo, const Vec3& normal,

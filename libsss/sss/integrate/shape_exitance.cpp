@@ -48,12 +48,6 @@ Rgb singleShare(const Medium& medium) {
     return share;
 }
 
-FresnelMoments momentsOf(const TranslucentMaterial& material) {
-    return material.profileOptions.boundary == BoundaryModel::Exact
-               ? exactFresnelMoments(material.medium.eta)
-               : polynomialFresnelMoments(material.medium.eta);
-}
-
 // What becomes of the light that entered, if `all` of it leaves that has scattered and `single` of
 // that but once, and whether a channel's solution is sound.
 void shareOut(const BeamSources& light, const DRgb& all, const DRgb& single, double tolerance,
@@ -84,7 +78,7 @@ ShapeExitance solveShape(const World& world, int bodyIndex, const BodyOptics& op
     const Body& body = world.bodies()[static_cast<std::size_t>(bodyIndex)];
     const double tolerance = world.scene().quality.tolerance;
     DiffusionConstants medium =
-        diffusionConstants(optics.material.medium, momentsOf(optics.material));
+        diffusionConstants(optics.material.medium, momentsFor(optics.material));
     cloud.cloud.needAll();
     ShapeExitance result;
     std::vector<Rgb> once(onceOfPassOne.begin(), onceOfPassOne.end());

@@ -21,6 +21,7 @@ DiffusionConstants diffusionConstants(const Medium& medium, const FresnelMoments
         out.boundaryMm[c] = impedance * out.diffusionMm[c];
         out.reducedAlbedo[c] = channel.reducedAlbedo();
         out.extinction[c] = channel.sigmaTPrime();
+        out.fading[c] = out.extinction[c] + out.screening[c] * out.screening[c] * mfp;
     }
     return out;
 }

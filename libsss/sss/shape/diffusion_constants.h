@@ -14,6 +14,9 @@ struct DiffusionConstants {
     DRgb impedance{0};      ///< 2 A: fluence over radiant exitance at the boundary
     DRgb reducedAlbedo{0};  ///< alpha', the share of a first collision that scatters
     DRgb extinction{0};     ///< sigma'_t, mm^-1
+    /// What is seen along a line of sight comes from s deep by exp(-fading s), mm^-1: sigma'_t, and
+    /// k^2 / sigma'_t, the rate at which even fluence begins to fall off within a mean free path.
+    DRgb fading{0};
     /// Channels that scatter; the others send nothing back, and their numbers above mean nothing.
     bool scatters[3] = {false, false, false};
 };

@@ -32,6 +32,7 @@ double leavesStraight(double eta, const Length& length) {
 }
 
 struct Looked {
+    DiffusionConstants medium;
     std::vector<SurfacePoint> points;
     std::vector<Rgb> collided;
     CollisionCounts counts;
@@ -47,15 +48,12 @@ Looked lookInto(const Shape& shape, const TranslucentMaterial& material, double 
     SilentReporter silent;
     BodyReport report;
     Looked looked;
+    looked.medium = diffusionConstants(material.medium, exactFresnelMoments(material.medium.eta));
     looked.points = placePoints(world, 0, *optics[0], {}, silent, report).points;
-    looked.collided = collisionProbabilities(
-        world, 0, looked.points,
-        diffusionConstants(material.medium, exactFresnelMoments(material.medium.eta)),
-        looked.counts);
+    looked.collided = collisionProbabilities(world, 0, looked.points, looked.medium, looked.counts);
     return looked;
 }
 
-constexpr double kPerMm[3] = {1, 2, 0.5};  // mean free paths, by channel
 TranslucentMaterial coloured(double eta) {
     TranslucentMaterial material = testing::grey(0.01, 0.99, eta);
     material.medium.sigmaA = {0.01, 0.02, 0.005};
@@ -82,7 +80,7 @@ TEST(CollisionProbability, OfBallsIsTheClosedForm) {
         const Looked ball = lookInto(SphereShape{radius}, coloured(eta), radius / 5);
         ASSERT_GT(ball.points.size(), 200u);
         for (int c = 0; c < 3; ++c) {
-            const double diameter = kPerMm[c] * 2 * radius;
+            const double diameter = ball.medium.fading[c] * 2 * radius;
             const Errors errors =
                 errorsOf(ball.collided, c,
                          1 - leavesStraight(eta, [&](double cosine) { return diameter * cosine; }));
@@ -101,7 +99,7 @@ TEST(CollisionProbability, OfPlatesIsTheClosedForm) {
             within.push_back(plate.collided[i]);
     ASSERT_GT(within.size(), 100u);
     for (int c = 0; c < 3; ++c) {
-        const double depth = kPerMm[c] * thickness;
+        const double depth = plate.medium.fading[c] * thickness;
         const Errors errors = errorsOf(
             within, c, 1 - leavesStraight(eta, [&](double cosine) { return depth / cosine; }));
         EXPECT_NEAR(errors.mean, 0, 2e-3) << c;
