@@ -48,6 +48,17 @@ Rgb singleShare(const Medium& medium) {
     return share;
 }
 
+// Channels whose points are too far apart are none that scatter: no sources, nothing to solve.
+std::array<bool, 3> leaveOutCoarse(double spacingMm, DiffusionConstants& medium) {
+    std::array<bool, 3> isTooCoarse{};
+    for (int c = 0; c < 3; ++c) {
+        if (!medium.scatters[c] || spacingMm * medium.extinction[c] <= kMostSpacingPerMfp) continue;
+        isTooCoarse[static_cast<std::size_t>(c)] = true;
+        medium.scatters[c] = false;
+    }
+    return isTooCoarse;
+}
+
 // What becomes of the light that entered, if `all` of it leaves that has scattered and `single` of
 // that but once, and whether a channel's solution is sound.
 void shareOut(const BeamSources& light, const DRgb& all, const DRgb& single, double tolerance,
@@ -82,12 +93,7 @@ ShapeExitance solveShape(const World& world, int bodyIndex, const BodyOptics& op
     cloud.cloud.needAll();
     ShapeExitance result;
     std::vector<Rgb> once(onceOfPassOne.begin(), onceOfPassOne.end());
-    for (int c = 0; c < 3; ++c) {
-        if (!medium.scatters[c] || cloud.spacingMm * medium.extinction[c] <= kMostSpacingPerMfp)
-            continue;
-        result.isTooCoarse[static_cast<std::size_t>(c)] = true;
-        medium.scatters[c] = false;  // no sources, nothing to solve
-    }
+    result.isTooCoarse = leaveOutCoarse(cloud.spacingMm, medium);
     const BodyField field(body, optics, cloud, tolerance);
     const std::vector<Rgb> flat = profileExitance(field, cloud, tolerance, result.profile);
     BeamSources light = placeBeamSources(world, bodyIndex, cloud, beams, medium);
