@@ -37,7 +37,8 @@ DensityGrid::DensityGrid(const Cell& nodes, int channels, std::vector<float> val
       values_(std::move(values)) {
     SSS_ASSERT_EQ(values_.size(), product(nodes_) * static_cast<std::size_t>(channels_));
     isEmpty_.resize(product(cells_));
-    for (std::size_t i = 0; i < isEmpty_.size(); ++i) isEmpty_[i] = mean(cellOf(i)) == Vec4(0) ? 1 : 0;
+    for (std::size_t i = 0; i < isEmpty_.size(); ++i)
+        isEmpty_[i] = mean(cellOf(i)) == Vec4(0) ? 1 : 0;
 }
 
 DensityGrid DensityGrid::read(const GridFile& file) {
