@@ -111,10 +111,12 @@ Rgb PathTracer::diffusion(const SurfaceHit& hit, const Bsdf& bsdf, const Vec3& w
                           PathCounts& counts, std::optional<LookThrough>* through) const {
     if (hit.body < 0 || !exitance_) return Rgb(0);
     const BodyOptics& optics = *optics_[static_cast<std::size_t>(hit.body)];
-    if (!optics.material.multipleScattering) return Rgb(0);
-    ++counts.diffusionLookups;
-    const Rgb radiance = exitance_->exitance(hit, wo, sampler, counts) *
-                         optics.radiancePerExitance(bsdf.cosOutgoing());
+    Rgb radiance(0);
+    if (optics.material.multipleScattering) {
+        ++counts.diffusionLookups;
+        radiance = exitance_->exitance(hit, wo, sampler, counts) *
+                   optics.radiancePerExitance(bsdf.cosOutgoing());
+    }
     if (!optics.seesThrough) return radiance;
     Sampler side = sampler.branch();
     const std::optional<LookThrough> way = lookThrough(world_, optics, hit, wo, side, counts.rays);

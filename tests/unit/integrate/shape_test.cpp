@@ -139,6 +139,25 @@ TEST(Shape, LightLeansAwayFromWhereItEntered) {
     }
 }
 
+// What comes straight through a thin ball is the same whether what it scatters is shown or not.
+TEST(Shape, IsSeenThroughWithoutWhatItScatters) {
+    double through[2];
+    for (const bool multiple : {false, true}) {
+        TranslucentMaterial white = onShape(grey(0, 1, 1.4));
+        white.singleScattering = white.surfaceReflection = false;
+        white.multipleScattering = multiple;
+        SceneMaker maker = ballUnderSky(white, 0.5);
+        maker.scene.film.samples = 16;
+        const LayeredImage seen = testing::picture(maker.scene);
+        double sum = 0;
+        for (int y = 0; y < seen.height; ++y)
+            for (int x = 0; x < seen.width; ++x) sum += testing::value(seen, "surface", x, y, 0);
+        through[multiple] = sum / (seen.width * seen.height);
+    }
+    EXPECT_GT(through[0], 0.3);
+    EXPECT_EQ(through[0], through[1]);
+}
+
 // A plate of 0.8 mean free paths over a lamp: what has scattered and leaves its unlit face straight
 // on, aslant and near the edge, its lit face, and its rim, along which light goes far. Radiance by
 // `volume`, 16384 samples of each of 16 x 16 pixels, +-0.2 %, +-0.4 % at the rim.
