@@ -10,10 +10,10 @@
 namespace sss {
 namespace {
 
-constexpr std::size_t kGrain = 256;
+constexpr std::size_t kPointsPerBeamTask = 256;
 // A beam that is reflected inside goes on until this much of it is left.
-constexpr double kFaint = 1e-4;
-constexpr int kMostLegs = 16;
+constexpr double kFaintBeam = 1e-4;
+constexpr int kMostBeamLegs = 16;
 
 // One beam on its way.
 class BeamWalk {
@@ -56,8 +56,8 @@ private:
     // False, and nothing done, for a beam that never leaves the body.
     bool follow(Ray ray, const DRgb& power, BeamSources& out) {
         DRgb left = power;
-        for (int leg = 0; leg < kMostLegs && maxComponent(left) > kFaint * maxComponent(power);
-             ++leg) {
+        for (int leg = 0;
+             leg < kMostBeamLegs && maxComponent(left) > kFaintBeam * maxComponent(power); ++leg) {
             ray.tMax = static_cast<float>(rule_.reachMm());
             Hit hit;
             const bool leaves = world_.rays().intersect(ray, hit, bodyMask(body_));
@@ -111,9 +111,9 @@ BeamSources placeBeamSources(const World& world, int body, const BodyCloud::View
                              const EnteredBeams& beams, const DiffusionConstants& medium) {
     const DepthRule rule(medium);
     const std::size_t count = cloud.cloud.points.size();
-    std::vector<BeamSources> parts((count + kGrain - 1) / kGrain);
-    parallelFor(count, kGrain, [&](std::size_t begin, std::size_t end) {
-        BeamSources& part = parts[begin / kGrain];
+    std::vector<BeamSources> parts((count + kPointsPerBeamTask - 1) / kPointsPerBeamTask);
+    parallelFor(count, kPointsPerBeamTask, [&](std::size_t begin, std::size_t end) {
+        BeamSources& part = parts[begin / kPointsPerBeamTask];
         BeamWalk walk(world, body, medium, rule);
         for (std::size_t p = begin; p < end; ++p) {
             const DRgb power =

@@ -13,13 +13,13 @@
 namespace sss {
 namespace {
 
-constexpr std::size_t kGrain = 64;
+constexpr std::size_t kPointsPerTask = 64;
 // Directions a point. Where the first few all end within, so do the others.
 constexpr std::uint32_t kDirections = 64, kFirstDirections = 8;
 // Less than this of a beam is none.
-constexpr float kFaint = 1e-3f;
-constexpr float kFaintDepth = 6.9f;  // of which it is the exponential
-constexpr int kMostLegs = 16;
+constexpr float kFaintLight = 1e-3f;
+constexpr float kFaintLightDepth = 6.9f;  // of which it is the exponential
+constexpr int kMostPassages = 16;
 constexpr std::uint64_t kSeed = 0xc0111dedull;
 
 // Light that enters a body and goes straight on, reflected at the boundary, and fades
@@ -38,7 +38,7 @@ public:
             enters_[c] = 1;
             least = std::min(least, medium.fading[c]);
         }
-        reachMm_ = static_cast<float>(kFaintDepth / least);
+        reachMm_ = static_cast<float>(kFaintLightDepth / least);
     }
 
     // The share that leaves of diffuse light that enters at a place.
@@ -48,7 +48,7 @@ public:
         Rgb leaves(0);
         float entered = 0;
         for (std::uint32_t k = 0; k < kDirections; ++k) {
-            if (k == kFirstDirections && maxComponent(leaves) <= kFaint * entered) break;
+            if (k == kFirstDirections && maxComponent(leaves) <= kFaintLight * entered) break;
             Sampler sampler(seed, k);
             const Vec3 outside = cosineDirection(sampler.next2D());
             const float enters = 1.0f - fresnelReflectance(outside.z, eta_);
@@ -70,12 +70,12 @@ private:
         ray.direction = direction;
         ray.tMax = reachMm_;
         Rgb left = enters_, leaves(0);
-        for (int leg = 0; leg < kMostLegs; ++leg) {
+        for (int leg = 0; leg < kMostPassages; ++leg) {
             Hit hit;
             ++rays_;
             if (!world_.rays().intersect(ray, hit, bodyMask(body_))) break;
             left *= glm::exp(-fading_ * hit.t);
-            if (maxComponent(left) < kFaint) break;
+            if (maxComponent(left) < kFaintLight) break;
             const SurfaceHit exit = world_.surfaceAt(hit);
             const float cosine = glm::dot(ray.direction, exit.geometricNormal);
             ray.origin = world_.leave(exit, -exit.geometricNormal);
@@ -102,7 +102,7 @@ std::vector<Rgb> collisionProbabilities(const World& world, int body,
                                         const DiffusionConstants& medium, CollisionCounts& counts) {
     std::vector<Rgb> collided(points.size(), Rgb(1));
     std::atomic<std::uint64_t> rays{0};
-    parallelFor(points.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+    parallelFor(points.size(), kPointsPerTask, [&](std::size_t begin, std::size_t end) {
         StraightLight light(world, body, medium);
         for (std::size_t i = begin; i < end; ++i) {
             const SurfaceHit place =

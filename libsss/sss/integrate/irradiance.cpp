@@ -10,7 +10,7 @@
 namespace sss {
 namespace {
 
-constexpr std::size_t kGrain = 64;
+constexpr std::size_t kPointsPerLightTask = 64;
 
 // Sums over the samples of a point.
 struct PointSum {
@@ -62,7 +62,7 @@ IrradianceResult computeIrradiance(const World& world, int body, const SurfaceSa
     Progress progress(reporter, "irradiance", samples.size());
     std::vector<double> variances(samples.size(), 0.0);
     std::mutex mutex;
-    parallelFor(samples.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+    parallelFor(samples.size(), kPointsPerLightTask, [&](std::size_t begin, std::size_t end) {
         PathCounts counts;
         std::uint64_t dropped = 0;
         BeamPicker picker(eta, place);

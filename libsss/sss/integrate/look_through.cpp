@@ -8,7 +8,7 @@
 namespace sss {
 namespace {
 
-constexpr int kMostLegs = 16;
+constexpr int kMostSightLegs = 16;
 // Optical depth of a ten-thousandth: fainter than this nobody sees.
 constexpr float kUnseenDepth = 9.2f;
 
@@ -34,7 +34,7 @@ std::optional<LookThrough> lookThrough(const World& world, const BodyOptics& opt
     Ray ray;
     ray.origin = world.leave(hit, -hit.geometricNormal);
     ray.direction = glm::normalize(refractedDirection(-wo, normal, cosine, inside, optics.eta));
-    for (int leg = 0; leg < kMostLegs; ++leg) {
+    for (int leg = 0; leg < kMostSightLegs; ++leg) {
         if (least > 0) ray.tMax = kUnseenDepth / least;
         Hit found;
         ++rays;

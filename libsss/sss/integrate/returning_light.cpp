@@ -12,7 +12,7 @@
 namespace sss {
 namespace {
 
-constexpr std::size_t kGrain = 256;
+constexpr std::size_t kPointsPerReturnTask = 256;
 // Diffusion levels out what single points have by chance.
 constexpr std::uint32_t kRays = 12;
 // Of the nearest points to what a ray has met, the first that faces as it does stands for it.
@@ -42,8 +42,8 @@ ReturningLight::ReturningLight(const World& world, int bodyIndex, const BodyOpti
         return Vec3(bodyFromWorld.transformDirection(DVec3(direction)));
     };
     const std::size_t count = cloud.cloud.points.size();
-    std::vector<std::vector<Met>> parts((count + kGrain - 1) / kGrain);
-    parallelFor(count, kGrain, [&](std::size_t begin, std::size_t end) {
+    std::vector<std::vector<Met>> parts((count + kPointsPerReturnTask - 1) / kPointsPerReturnTask);
+    parallelFor(count, kPointsPerReturnTask, [&](std::size_t begin, std::size_t end) {
         for (std::size_t p = begin; p < end; ++p) {
             const SurfacePoint& point = cloud.cloud.points[p];
             const SurfaceHit here = world.surfaceOf(bodyIndex, point.face, point.barycentrics());
@@ -63,7 +63,7 @@ ReturningLight::ReturningLight(const World& world, int bodyIndex, const BodyOpti
                 const float inside = refractedCosine(local.z, optics.eta);
                 const Vec3 along = refractedDirection(-ray.direction, here.geometricNormal, local.z,
                                                       inside, optics.eta);
-                parts[begin / kGrain].push_back(
+                parts[begin / kPointsPerReturnTask].push_back(
                     {static_cast<std::uint32_t>(p),
                      Vec3(bodyFromWorld.transformPoint(DVec3(there.position))),
                      inBody(there.geometricNormal),

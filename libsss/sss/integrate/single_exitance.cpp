@@ -8,7 +8,7 @@
 namespace sss {
 namespace {
 
-constexpr std::size_t kGrain = 64;
+constexpr std::size_t kPointsPerSingleTask = 64;
 
 }  // namespace
 
@@ -19,7 +19,7 @@ std::vector<Rgb> singleExitance(const World& world, int body, const SurfaceSampl
     const auto n = static_cast<std::uint32_t>(samplesPerPoint);
     std::vector<Rgb> exitance(samples.size(), Rgb(0));
     std::mutex mutex;
-    parallelFor(samples.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+    parallelFor(samples.size(), kPointsPerSingleTask, [&](std::size_t begin, std::size_t end) {
         PathCounts own;
         for (std::size_t p = begin; p < end; ++p) {
             DRgb sum{0};
