@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::size_t kPointsPerTask = 64;
 // Directions a point. Where the first few all end within, so do the others.
-constexpr std::uint32_t kDirections = 64, kFirstDirections = 8;
+constexpr std::uint32_t kDirections = 64, kFirstDirections = 4;
 // Less than this of a beam is none.
 constexpr float kFaintLight = 1e-3f;
 constexpr float kFaintLightDepth = 6.9f;  // of which it is the exponential

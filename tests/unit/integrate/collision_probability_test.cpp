@@ -113,7 +113,7 @@ TEST(CollisionProbability, IsOneWhereTheBodyIsThick) {
     std::size_t thin = 0;  // by lines of sight along the surface
     for (const Rgb& value : ball.collided) thin += minComponent(value) < 0.999f;
     EXPECT_EQ(thin, 0u);
-    EXPECT_LE(ball.counts.rays, 8 * ball.points.size());
+    EXPECT_LE(ball.counts.rays, 4 * ball.points.size());
 }
 
 // A channel in which nothing scatters is none to solve; a film has next to none that does.
